@@ -1,0 +1,46 @@
+# One warnings target, one way to make a library and one way to make a test.
+
+add_library(skyig_build INTERFACE)
+target_compile_options(skyig_build INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+target_compile_definitions(skyig_build INTERFACE GLM_FORCE_XYZW_ONLY GLM_ENABLE_EXPERIMENTAL)
+target_include_directories(skyig_build INTERFACE ${CMAKE_SOURCE_DIR})
+
+if(SKYIG_SANITIZE)
+  add_compile_options(-fsanitize=${SKYIG_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${SKYIG_SANITIZE})
+endif()
+if(SKYIG_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
+# skyig_library(NAME SOURCES a.cpp ... [DEPS target ...] [PRIVATE_DEPS target ...])
+function(skyig_library NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
+  add_library(${NAME} STATIC ${ARG_SOURCES})
+  target_include_directories(${NAME} PUBLIC ${CMAKE_SOURCE_DIR})
+  target_link_libraries(${NAME} PUBLIC glm::glm ${ARG_DEPS} PRIVATE skyig_build ${ARG_PRIVATE_DEPS})
+endfunction()
+
+# skyig_test(NAME SOURCES a.cpp ... DEPS target ... [LABELS unit|gl|slow|net] [TIMEOUT s])
+# Every test program finds its data under SKYIG_TEST_DATA and what this clone may lack under
+# SKYIG_REFERENCE (absent on a lone clone: such a test says so and is skipped).
+function(skyig_test NAME)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPS;LABELS" ${ARGN})
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  add_executable(${NAME} ${ARG_SOURCES})
+  target_include_directories(${NAME} PRIVATE ${CMAKE_SOURCE_DIR})
+  target_link_libraries(${NAME} PRIVATE skyig_build ${ARG_DEPS} GTest::gtest_main GTest::gmock)
+  target_compile_definitions(${NAME} PRIVATE
+    SKYIG_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+    SKYIG_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
+    SKYIG_REFERENCE="${CMAKE_SOURCE_DIR}/../shared/reference")
+  add_test(NAME ${NAME} COMMAND ${NAME})
+  set_tests_properties(${NAME} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()

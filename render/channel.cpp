@@ -1,0 +1,44 @@
+#include "render/channel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skyig::render {
+
+ImagePlane image_plane(const Frustum& frustum) noexcept {
+    return {std::tan(frustum.left_rad), std::tan(frustum.right_rad), std::tan(frustum.bottom_rad),
+            std::tan(frustum.top_rad)};
+}
+
+glm::dvec3 view_direction(const Channel& channel, const Frustum& frustum, double x_px, double y_px) noexcept {
+    const ImagePlane plane = image_plane(frustum);
+    const double x = plane.left + (plane.right - plane.left) * x_px / channel.width_px;
+    const double y = plane.bottom + (plane.top - plane.bottom) * y_px / channel.height_px;
+    return glm::normalize(glm::dvec3{x, y, -1.0});
+}
+
+double pixel_angle_rad(const Channel& channel, const Frustum& frustum) noexcept {
+    const ImagePlane plane = image_plane(frustum);
+    return std::max((plane.right - plane.left) / channel.width_px, (plane.top - plane.bottom) / channel.height_px);
+}
+
+glm::dmat3 body_from_ned(double yaw_rad, double pitch_rad, double roll_rad) noexcept {
+    const double cy = std::cos(yaw_rad), sy = std::sin(yaw_rad);
+    const double cp = std::cos(pitch_rad), sp = std::sin(pitch_rad);
+    const double cr = std::cos(roll_rad), sr = std::sin(roll_rad);
+    // Columns are the body coordinates of the north, east and down axes (transpose of Rz(yaw) Ry(pitch) Rx(roll)).
+    return {glm::dvec3{cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr},
+            glm::dvec3{sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr},
+            glm::dvec3{-sp, cp * sr, cp * cr}};
+}
+
+glm::dmat3 ned_from_enu() noexcept {
+    return {glm::dvec3{0.0, 1.0, 0.0}, glm::dvec3{1.0, 0.0, 0.0}, glm::dvec3{0.0, 0.0, -1.0}};
+}
+
+glm::dmat3 view_from_body() noexcept {
+    // Body X forward -> view -z, body Y right -> view x, body Z down -> view -y.
+    return {glm::dvec3{0.0, 0.0, -1.0}, glm::dvec3{1.0, 0.0, 0.0}, glm::dvec3{0.0, -1.0, 0.0}};
+}
+
+}  // namespace skyig::render

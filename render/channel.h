@@ -1,0 +1,59 @@
+// A display channel: a rectangle of pixels that looks through its own frustum from the shared eye point.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+
+namespace skyig::render {
+
+/// Signed half angles in radians from the view axis to each side plane of a perspective frustum:
+/// left < right, bottom < top, each strictly inside (-pi/2, pi/2). Left and bottom are normally negative.
+struct Frustum {
+    double left_rad = 0.0;
+    double right_rad = 0.0;
+    double bottom_rad = 0.0;
+    double top_rad = 0.0;
+
+    friend bool operator==(const Frustum&, const Frustum&) = default;
+};
+
+/// What of a channel never changes while the daemon runs.
+struct Channel {
+    std::string name;
+    int width_px = 0;
+    int height_px = 0;
+};
+
+/// Where a channel looks in one frame. The view frame is x right, y up, -z along the view axis.
+struct ChannelView {
+    Frustum frustum;
+    glm::dmat3 view_from_enu{1.0};
+};
+
+/// The extents of the image plane at distance 1: x in [left, right], y in [bottom, top].
+struct ImagePlane {
+    double left = 0.0;
+    double right = 0.0;
+    double bottom = 0.0;
+    double top = 0.0;
+};
+
+[[nodiscard]] ImagePlane image_plane(const Frustum& frustum) noexcept;
+
+/// Direction in the view frame (unit) through image coordinates in pixels, origin at the lower left corner of the
+/// lower left pixel, so that pixel (i, j) has its centre at (i + 0.5, j + 0.5).
+[[nodiscard]] glm::dvec3 view_direction(const Channel& channel, const Frustum& frustum, double x_px,
+                                        double y_px) noexcept;
+
+/// Angle between neighbouring pixel centres on the view axis, the larger of the two directions, radians.
+[[nodiscard]] double pixel_angle_rad(const Channel& channel, const Frustum& frustum) noexcept;
+
+/// Rotation that takes north-east-down axes to the body axes (X forward, Y right, Z down) of something yawed, then
+/// pitched, then rolled (CIGI order).
+[[nodiscard]] glm::dmat3 body_from_ned(double yaw_rad, double pitch_rad, double roll_rad) noexcept;
+
+/// Constant rotations between axes conventions.
+[[nodiscard]] glm::dmat3 ned_from_enu() noexcept;
+[[nodiscard]] glm::dmat3 view_from_body() noexcept;
+
+}  // namespace skyig::render

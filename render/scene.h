@@ -1,0 +1,90 @@
+// All that the renderer knows of the world in one frame: immutable, complete, independent of dates and hosts.
+// Directions are unit vectors in the scene frame: east-north-up at the eye (WGS84 vertical), airless (without
+// refraction), topocentric.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "render/channel.h"
+
+namespace skyig::render {
+
+inline constexpr std::size_t kMaxChannels = 16;
+
+struct Sun {
+    bool enabled = true;
+    glm::dvec3 direction_enu{0.0, 0.0, 1.0};
+    double distance_au = 1.0;
+    double angular_radius_rad = 0.004652;
+    /// Part of the disc's light that the Moon leaves over, 0..1.
+    double unobscured = 1.0;
+};
+
+struct Moon {
+    bool enabled = true;
+    glm::dvec3 direction_enu{0.0, 0.0, -1.0};
+    double distance_km = 384400.0;
+    double angular_radius_rad = 0.00452;
+    /// Unit vector from the Moon's centre to the Sun: lights the disc, gives phase and bright limb.
+    glm::dvec3 to_sun_enu{0.0, 0.0, 1.0};
+    /// Angle Sun-Moon-eye: 0 full, pi new.
+    double phase_angle_rad = 0.0;
+};
+
+struct Stars {
+    bool enabled = true;
+    /// Fraction of the full star field intensity, 0..1.
+    double intensity = 1.0;
+    /// One rotation for all stars: precession, nutation, Earth rotation, site.
+    glm::dmat3 enu_from_gcrs{1.0};
+    /// Barycentric velocity of the Earth in units of c, GCRS axes (annual aberration).
+    glm::dvec3 earth_velocity_c{0.0};
+    /// Julian years of TT since J2000.0 (proper motion).
+    double years_since_j2000 = 0.0;
+};
+
+/// The base state of the air.
+struct Air {
+    /// False: the host has switched the atmospheric model off; the air is then clean (molecules only).
+    bool model_enabled = true;
+    /// Meteorological optical range at the ground, metres: extinction = -ln(visibility_contrast) / visibility_m.
+    double visibility_m = 80000.0;
+    double visibility_contrast = 0.05;
+    double temperature_c = 15.0;
+    double pressure_hpa = 1013.25;
+    double humidity_pct = 50.0;
+
+    friend bool operator==(const Air&, const Air&) = default;
+};
+
+struct Eye {
+    double latitude_deg = 0.0;
+    double longitude_deg = 0.0;
+    /// Height above the WGS84 ellipsoid, metres.
+    double height_m = 0.0;
+};
+
+struct Scene {
+    std::uint64_t frame_number = 0;
+    /// Scene time in seconds, from the world's clock (never from measured time). It drives adaptation; a step
+    /// backwards or by more than a few seconds is a jump of the clock.
+    double time_s = 0.0;
+    Eye eye;
+    Sun sun;
+    Moon moon;
+    Stars stars;
+    Air air;
+
+    std::array<ChannelView, kMaxChannels> views{};
+    std::size_t view_count = 0;
+
+    [[nodiscard]] std::span<const ChannelView> channel_views() const noexcept {
+        return {views.data(), view_count};
+    }
+};
+
+}  // namespace skyig::render
