@@ -19,14 +19,16 @@ glm::dvec3 view_direction(const Channel& channel, const Frustum& frustum, double
 
 double pixel_angle_rad(const Channel& channel, const Frustum& frustum) noexcept {
     const ImagePlane plane = image_plane(frustum);
-    return std::max((plane.right - plane.left) / channel.width_px, (plane.top - plane.bottom) / channel.height_px);
+    return std::max((plane.right - plane.left) / channel.width_px,
+                    (plane.top - plane.bottom) / channel.height_px);
 }
 
 glm::dmat3 body_from_ned(double yaw_rad, double pitch_rad, double roll_rad) noexcept {
     const double cy = std::cos(yaw_rad), sy = std::sin(yaw_rad);
     const double cp = std::cos(pitch_rad), sp = std::sin(pitch_rad);
     const double cr = std::cos(roll_rad), sr = std::sin(roll_rad);
-    // Columns are the body coordinates of the north, east and down axes (transpose of Rz(yaw) Ry(pitch) Rx(roll)).
+    // Columns are the body coordinates of the north, east and down axes (transpose of Rz(yaw) Ry(pitch)
+    // Rx(roll)).
     return {glm::dvec3{cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr},
             glm::dvec3{sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr},
             glm::dvec3{-sp, cp * sr, cp * cr}};

@@ -40,16 +40,16 @@ struct ImagePlane {
 
 [[nodiscard]] ImagePlane image_plane(const Frustum& frustum) noexcept;
 
-/// Direction in the view frame (unit) through image coordinates in pixels, origin at the lower left corner of the
-/// lower left pixel, so that pixel (i, j) has its centre at (i + 0.5, j + 0.5).
+/// Direction in the view frame (unit) through image coordinates in pixels, origin at the lower left corner of
+/// the lower left pixel, so that pixel (i, j) has its centre at (i + 0.5, j + 0.5).
 [[nodiscard]] glm::dvec3 view_direction(const Channel& channel, const Frustum& frustum, double x_px,
                                         double y_px) noexcept;
 
 /// Angle between neighbouring pixel centres on the view axis, the larger of the two directions, radians.
 [[nodiscard]] double pixel_angle_rad(const Channel& channel, const Frustum& frustum) noexcept;
 
-/// Rotation that takes north-east-down axes to the body axes (X forward, Y right, Z down) of something yawed, then
-/// pitched, then rolled (CIGI order).
+/// Rotation that takes north-east-down axes to the body axes (X forward, Y right, Z down) of something yawed,
+/// then pitched, then rolled (CIGI order).
 [[nodiscard]] glm::dmat3 body_from_ned(double yaw_rad, double pitch_rad, double roll_rad) noexcept;
 
 /// Constant rotations between axes conventions.

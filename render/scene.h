@@ -51,7 +51,8 @@ struct Stars {
 struct Air {
     /// False: the host has switched the atmospheric model off; the air is then clean (molecules only).
     bool model_enabled = true;
-    /// Meteorological optical range at the ground, metres: extinction = -ln(visibility_contrast) / visibility_m.
+    /// Meteorological optical range at the ground, metres: extinction = -ln(visibility_contrast) /
+    /// visibility_m.
     double visibility_m = 80000.0;
     double visibility_contrast = 0.05;
     double temperature_c = 15.0;

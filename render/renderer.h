@@ -1,0 +1,61 @@
+// Executes the plan of a frame: shared, direction-dependent work once, then each channel.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/channel.h"
+#include "render/display.h"
+#include "render/plan.h"
+#include "render/scene.h"
+
+namespace skyig::render {
+
+/// What a frame did; valid until the next prepare().
+struct FrameReport {
+    Plan plan;
+    /// The one luminance that all channels of this frame are adapted to, cd/m2.
+    double adaptation_cd_m2 = 0.0;
+    std::size_t stars_drawn = 0;
+    /// GL errors since start-up (debug output of type error).
+    std::uint64_t gl_errors = 0;
+};
+
+/// Needs a current OpenGL 4.5 core context for its whole life, always on the same thread.
+/// A frame is: prepare(scene), then draw(i) and, if wanted, read_back(i) for each channel.
+class Renderer {
+  public:
+    /// \throws std::runtime_error with the GL text when a program or a framebuffer cannot be made, or when
+    /// there are no channels or more than kMaxChannels.
+    Renderer(std::vector<Channel> channels, const DisplaySettings& display);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    /// All work that the channels share. `scene.view_count` must equal the number of channels.
+    /// Never throws; allocates nothing in steady state.
+    const FrameReport& prepare(const Scene& scene);
+
+    /// Draws one channel of the prepared frame and returns when the pixels are finished.
+    void draw(std::size_t channel);
+
+    /// Copies a channel's pixels: RGBA, 8 bits, top row first, width * height * 4 bytes.
+    void read_back(std::size_t channel, std::span<std::byte> rgba);
+
+    [[nodiscard]] std::span<const Channel> channels() const noexcept;
+
+    /// The colour, encoded for the display and before dither, that the same functions give for one direction
+    /// (discs and stars left out): what the tests hold the drawn pixels against.
+    [[nodiscard]] glm::dvec3 reference_colour(const glm::dvec3& direction_enu) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace skyig::render
