@@ -1,0 +1,81 @@
+// The server's log: one line a fact to stderr, with journald's <N> priority prefix unless a person watches a
+// terminal. Lines that could repeat are limited by key. Safe from several threads; lines up to 500 bytes
+// allocate nothing.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string_view>
+
+#include "server/clock.h"
+
+namespace skyig::server {
+
+/// syslog priorities
+enum class Severity { kError = 3, kWarning = 4, kNotice = 5, kInfo = 6, kDebug = 7 };
+
+class Log {
+  public:
+    /// Receives whole lines without prefix and line end.
+    using Sink = std::function<void(Severity, std::string_view)>;
+
+    /// Writes to stderr. `clock` must outlive the log; it measures the limits of repeated lines.
+    explicit Log(const Clock& clock, Severity threshold = Severity::kInfo);
+    /// Writes to `sink` (tests).
+    Log(const Clock& clock, Sink sink, Severity threshold = Severity::kDebug);
+
+    template <typename... Args>
+    void error(fmt::format_string<Args...> format, Args&&... args) {
+        write(Severity::kError, fmt::string_view(format), fmt::make_format_args(args...));
+    }
+    template <typename... Args>
+    void warning(fmt::format_string<Args...> format, Args&&... args) {
+        write(Severity::kWarning, fmt::string_view(format), fmt::make_format_args(args...));
+    }
+    template <typename... Args>
+    void notice(fmt::format_string<Args...> format, Args&&... args) {
+        write(Severity::kNotice, fmt::string_view(format), fmt::make_format_args(args...));
+    }
+    template <typename... Args>
+    void info(fmt::format_string<Args...> format, Args&&... args) {
+        write(Severity::kInfo, fmt::string_view(format), fmt::make_format_args(args...));
+    }
+
+    /// At most one line of this key each `every_s` seconds; the next one says how many were left out. `key`
+    /// must be a literal (it is kept, not copied). Keys beyond kMaxKeys share one limit.
+    template <typename... Args>
+    void limited(std::string_view key, double every_s, Severity severity, fmt::format_string<Args...> format,
+                 Args&&... args) {
+        write_limited(key, every_s, severity, fmt::string_view(format), fmt::make_format_args(args...));
+    }
+
+    static constexpr std::size_t kMaxKeys = 64;
+
+  private:
+    struct Limit {
+        std::string_view key;
+        std::int64_t last_ns = 0;
+        std::uint64_t suppressed = 0;
+    };
+
+    void write(Severity severity, fmt::string_view format, fmt::format_args args);
+    void write_limited(std::string_view key, double every_s, Severity severity, fmt::string_view format,
+                       fmt::format_args args);
+    void emit(Severity severity, std::string_view line);
+    Limit* find_limit(std::string_view key, std::int64_t now_ns, bool& first);
+
+    const Clock& clock_;
+    Severity threshold_;
+    Sink sink_;
+    bool prefix_ = false;
+    std::mutex mutex_;
+    std::array<Limit, kMaxKeys> limits_{};
+    std::size_t limit_count_ = 0;
+};
+
+}  // namespace skyig::server
