@@ -1,0 +1,67 @@
+// Luminance of every direction from one eye height under one light source: sky above the horizon, lit ground
+// and the air before it below. A small spectral march per table node, then smooth interpolation in XYZ.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+
+#include "render/sky/air_tables.h"
+
+namespace skyig::render::sky {
+
+/// Nodes of the table. Rows crowd at the geometric horizon, on both sides of it; columns are even over half a
+/// circle, which the mirror symmetry about the source's azimuth makes enough.
+struct SkyViewSize {
+    int sky_rows = 40;
+    int ground_rows = 20;
+    int columns = 33;
+    int steps = 32;
+
+    friend bool operator==(const SkyViewSize&, const SkyViewSize&) = default;
+};
+
+/// Values are XYZ with Y in cd/m2 for a source with the Sun's spectrum and irradiance at 1 AU: the caller
+/// scales them for distance, obscuration or the Moon. The disc itself and the night sky are not in them. A
+/// ray that misses the air is exactly black; no value is negative or not finite.
+///
+/// begin() and build_rows() spread one build over frames; a view answers look-ups once build_rows() has
+/// returned true, and its answers do not depend on how the build was sliced. Double buffering is the
+/// caller's. Nothing but the constructor allocates (begin() keeps a shared pointer to the tables).
+class SkyView {
+  public:
+    explicit SkyView(const SkyViewSize& size = {});
+    ~SkyView();
+    SkyView(SkyView&&) noexcept;
+    SkyView& operator=(SkyView&&) noexcept;
+
+    /// \param eye_height_m  above the model's ground; below 0 counts as the ground, above the lid the march
+    /// starts there \param source_elevation_rad  geometric elevation of the source at the eye, -pi/2..pi/2
+    void begin(const AirTables& tables, double eye_height_m, double source_elevation_rad) noexcept;
+    /// Builds at most `max_rows` more rows (sky_rows + ground_rows in all); true when the table is complete.
+    bool build_rows(int max_rows) noexcept;
+    void build_all() noexcept;
+    [[nodiscard]] bool complete() const noexcept;
+
+    /// \param elevation_rad  above the horizontal at the eye, -pi/2..pi/2 (clamped)
+    /// \param relative_azimuth_rad  from the source's azimuth, any finite value
+    [[nodiscard]] glm::vec3 xyz(float elevation_rad, float relative_azimuth_rad) const noexcept;
+    /// The same from one side of the horizon only: a direction beyond it gets the value at the edge.
+    [[nodiscard]] glm::vec3 xyz_above(float elevation_rad, float relative_azimuth_rad) const noexcept;
+    [[nodiscard]] glm::vec3 xyz_below(float elevation_rad, float relative_azimuth_rad) const noexcept;
+
+    /// Elevation of the geometric horizon at the eye: minus its dip, <= 0.
+    [[nodiscard]] double horizon_elevation_rad() const noexcept;
+    [[nodiscard]] double eye_height_m() const noexcept;
+    [[nodiscard]] double source_elevation_rad() const noexcept;
+    [[nodiscard]] const SkyViewSize& size() const noexcept;
+
+    /// The table's own nodes, for meshes that want their rows where the sky bends. Row 0 lies at the horizon.
+    [[nodiscard]] double sky_row_elevation_rad(int row) const noexcept;
+    [[nodiscard]] double ground_row_elevation_rad(int row) const noexcept;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace skyig::render::sky
