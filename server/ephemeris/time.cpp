@@ -1,0 +1,251 @@
+#include "server/ephemeris/time.h"
+
+#include <erfa.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+namespace skyig::server::ephemeris {
+namespace {
+
+constexpr double kSecondsPerDay = 86400.0;
+constexpr double kJulianDateOfMjdZero = 2400000.5;
+constexpr double kTtMinusTai_s = 32.184;
+
+constexpr std::int32_t kUnixEpochMjd = 40587;
+constexpr std::int32_t kFirstLeapSecondMjd = 41317;  // 1972-01-01: UTC in whole seconds from TAI
+constexpr std::int32_t kFirstMjd = -678575;          // 0001-01-01
+constexpr std::int32_t kLastMjd = 2973483;           // 9999-12-31
+constexpr std::int32_t kFirstSkyMjd = 15020;         // 1900-01-01
+constexpr std::int32_t kLastSkyMjd = 88068;          // 2100-12-31
+
+struct Date {
+    int year = 0;
+    int month = 0;
+    int day = 0;
+};
+
+Date date_of(std::int32_t mjd) noexcept {
+    Date date;
+    double fraction = 0.0;
+    eraJd2cal(kJulianDateOfMjdZero, static_cast<double>(mjd), &date.year, &date.month, &date.day, &fraction);
+    return date;
+}
+
+struct TaiOffset {
+    double tai_minus_utc_s = 0.0;
+    bool assumed = false;
+};
+
+/// From 1972 on; before that ERFA has drift rates and then nothing, which is not what is wanted there.
+TaiOffset tai_offset(std::int32_t mjd) noexcept {
+    const Date date = date_of(mjd);
+    TaiOffset offset;
+    const int status = eraDat(date.year, date.month, date.day, 0.0, &offset.tai_minus_utc_s);
+    offset.assumed = status != 0;
+    return offset;
+}
+
+double leap_seconds_before(std::int32_t mjd) noexcept {
+    constexpr double kTaiMinusUtcAtStart_s = 10.0;
+    return mjd < kFirstLeapSecondMjd ? 0.0 : tai_offset(mjd).tai_minus_utc_s - kTaiMinusUtcAtStart_s;
+}
+
+double length_of_day_s(std::int32_t mjd) noexcept {
+    return kSecondsPerDay + leap_seconds_before(mjd + 1) - leap_seconds_before(mjd);
+}
+
+std::optional<std::int32_t> mjd_of(int year, int month, int day) noexcept {
+    double mjd_zero = 0.0;
+    double mjd = 0.0;
+    if (year < 1 || year > 9999 || eraCal2jd(year, month, day, &mjd_zero, &mjd) != 0) return std::nullopt;
+    return static_cast<std::int32_t>(mjd);
+}
+
+/// Reads exactly `digits` decimal digits from the front of `text`.
+bool take_number(std::string_view& text, std::size_t digits, int& value) noexcept {
+    if (text.size() < digits) return false;
+    const char* const end = text.data() + digits;
+    const std::from_chars_result result = std::from_chars(text.data(), end, value);
+    if (result.ec != std::errc{} || result.ptr != end || value < 0) return false;
+    text.remove_prefix(digits);
+    return true;
+}
+
+bool take_one_of(std::string_view& text, std::string_view characters) noexcept {
+    if (text.empty() || characters.find(text.front()) == std::string_view::npos) return false;
+    text.remove_prefix(1);
+    return true;
+}
+
+/// Reads ".25" from the front of `text`; a dot without a digit behind it is refused.
+bool take_fraction(std::string_view& text, double& value) noexcept {
+    constexpr double kBase = 10.0;
+    std::size_t digits = 0;
+    double scale = 1.0;
+    text.remove_prefix(1);
+    for (; digits < text.size() && text[digits] >= '0' && text[digits] <= '9'; ++digits) {
+        scale /= kBase;
+        value += scale * static_cast<double>(text[digits] - '0');
+    }
+    text.remove_prefix(digits);
+    return digits > 0;
+}
+
+bool take_seconds(std::string_view& text, double& second) noexcept {
+    int whole = 0;
+    if (!take_number(text, 2, whole)) return false;
+    double fraction = 0.0;
+    if (!text.empty() && text.front() == '.' && !take_fraction(text, fraction)) return false;
+    // Digits beyond the resolution of a double may add up to the next second, which the text does not mean.
+    second = std::min(static_cast<double>(whole) + fraction, std::nextafter(whole + 1.0, 0.0));
+    return true;
+}
+
+}  // namespace
+
+bool is_valid(const CivilTime& time) noexcept {
+    const std::optional<std::int32_t> mjd = mjd_of(time.year, time.month, time.day);
+    if (!mjd || time.hour < 0 || time.hour > 23 || time.minute < 0 || time.minute > 59) return false;
+    if (!(time.second >= 0.0)) return false;
+    const bool last_minute = time.hour == 23 && time.minute == 59;
+    const double minute_length_s = last_minute ? 60.0 + length_of_day_s(*mjd) - kSecondsPerDay : 60.0;
+    return time.second < minute_length_s;
+}
+
+std::optional<UtcClockTime> UtcClockTime::from_civil(const CivilTime& time) noexcept {
+    if (!is_valid(time)) return std::nullopt;
+    const double minutes_s = 3600.0 * time.hour + 60.0 * time.minute;
+    const std::int32_t mjd = *mjd_of(time.year, time.month, time.day);
+    // A second just below the end of the day may round up to the end itself, which belongs to the next day.
+    const double below_end_s = std::nextafter(length_of_day_s(mjd), 0.0);
+    return UtcClockTime(mjd, std::min(minutes_s + time.second, below_end_s));
+}
+
+UtcClockTime UtcClockTime::from_unix(std::int64_t seconds, std::int32_t nanoseconds) noexcept {
+    constexpr std::int64_t kDay_s = 86400;
+    const std::int64_t second_of_day = ((seconds % kDay_s) + kDay_s) % kDay_s;
+    const std::int64_t days = (seconds - second_of_day) / kDay_s;
+    const std::int64_t mjd = std::clamp<std::int64_t>(days + kUnixEpochMjd, kFirstMjd, kLastMjd);
+    const double fraction_s = 1e-9 * std::clamp(nanoseconds, 0, 999'999'999);
+    return {static_cast<std::int32_t>(mjd), static_cast<double>(second_of_day) + fraction_s};
+}
+
+CivilTime UtcClockTime::civil() const noexcept {
+    const Date date = date_of(mjd_);
+    // The leap second belongs to the last minute, which then has 61.
+    const int minute_of_day = std::min(static_cast<int>(second_of_day_ / 60.0), 24 * 60 - 1);
+    return {.year = date.year,
+            .month = date.month,
+            .day = date.day,
+            .hour = minute_of_day / 60,
+            .minute = minute_of_day % 60,
+            .second = second_of_day_ - 60.0 * minute_of_day};
+}
+
+void UtcClockTime::advance(double seconds) noexcept {
+    if (!std::isfinite(seconds)) return;
+    double second = second_of_day_ + seconds;
+    if (second >= 0.0 && second < kSecondsPerDay) {
+        second_of_day_ = second;
+        return;
+    }
+    const double days =
+        std::clamp(std::floor(second / kSecondsPerDay), 1.0 * (kFirstMjd - mjd_), 1.0 * (kLastMjd - mjd_));
+    std::int32_t mjd = mjd_ + static_cast<std::int32_t>(days);
+    second -= days * kSecondsPerDay + leap_seconds_before(mjd) - leap_seconds_before(mjd_);
+    // What leap seconds have moved over a day's end is at most two days here, unless the years are left.
+    while (second < 0.0 && mjd > kFirstMjd && second > -2.0 * kSecondsPerDay)
+        second += length_of_day_s(--mjd);
+    while (second >= length_of_day_s(mjd) && mjd < kLastMjd)
+        second -= length_of_day_s(mjd++);
+    mjd_ = mjd;
+    second_of_day_ = std::clamp(second, 0.0, std::nextafter(length_of_day_s(mjd), 0.0));
+}
+
+double seconds_between(const UtcClockTime& earlier, const UtcClockTime& later) noexcept {
+    const double days = static_cast<double>(later.mjd()) - static_cast<double>(earlier.mjd());
+    const double leaps = leap_seconds_before(later.mjd()) - leap_seconds_before(earlier.mjd());
+    return days * kSecondsPerDay + leaps + (later.second_of_day() - earlier.second_of_day());
+}
+
+std::optional<UtcClockTime> parse_utc(std::string_view text) noexcept {
+    CivilTime time;
+    const bool shaped =
+        take_number(text, 4, time.year) && take_one_of(text, "-") && take_number(text, 2, time.month) &&
+        take_one_of(text, "-") && take_number(text, 2, time.day) && take_one_of(text, "T ") &&
+        take_number(text, 2, time.hour) && take_one_of(text, ":") && take_number(text, 2, time.minute);
+    if (!shaped) return std::nullopt;
+    if (take_one_of(text, ":") && !take_seconds(text, time.second)) return std::nullopt;
+    take_one_of(text, "Z");
+    if (!text.empty()) return std::nullopt;
+    return UtcClockTime::from_civil(time);
+}
+
+std::string to_iso(const UtcClockTime& time, int decimals) {
+    constexpr int kMostDecimals = 9;
+    const CivilTime civil = time.civil();
+    const int places = std::clamp(decimals, 0, kMostDecimals);
+    const std::string head = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:", civil.year, civil.month, civil.day,
+                                         civil.hour, civil.minute);
+    const int whole = static_cast<int>(civil.second);
+    if (places == 0) return fmt::format("{}{:02}Z", head, whole);
+    const double scale = std::pow(10.0, places);
+    // Half a nanosecond forgives the decimal fractions that a double of seconds of day cannot hold.
+    const double shown = std::min(std::floor((civil.second - whole) * scale + 5e-10 * scale), scale - 1.0);
+    return fmt::format("{}{:02}.{:0{}.0f}Z", head, whole, shown, places);
+}
+
+double delta_t_s(double year) noexcept {
+    const auto polynomial = [](double t, const auto& coefficients) {
+        double sum = 0.0;
+        for (std::size_t i = coefficients.size(); i-- > 0;)
+            sum = sum * t + coefficients[i];
+        return sum;
+    };
+    constexpr std::array k1900{-2.79, 1.494119, -0.0598939, 0.0061966, -0.000197};
+    constexpr std::array k1920{21.20, 0.84493, -0.076100, 0.0020936};
+    constexpr std::array k1941{29.07, 0.407, -1.0 / 233.0, 1.0 / 2547.0};
+    constexpr std::array k1961{45.45, 1.067, -1.0 / 260.0, -1.0 / 718.0};
+    const double y = std::clamp(year, 1900.0, 1986.0);
+    if (y < 1920.0) return polynomial(y - 1900.0, k1900);
+    if (y < 1941.0) return polynomial(y - 1920.0, k1920);
+    if (y < 1961.0) return polynomial(y - 1950.0, k1941);
+    return polynomial(y - 1975.0, k1961);
+}
+
+Instant make_instant(const UtcClockTime& utc, std::optional<double> dut1_s) noexcept {
+    std::int32_t mjd = utc.mjd();
+    double second = utc.second_of_day();
+    Instant instant;
+    instant.clamped = mjd < kFirstSkyMjd || mjd > kLastSkyMjd;
+    if (instant.clamped) {
+        second = mjd < kFirstSkyMjd ? 0.0 : kSecondsPerDay;
+        mjd = std::clamp(mjd, kFirstSkyMjd, kLastSkyMjd);
+    }
+    const double day = kJulianDateOfMjdZero + mjd;
+    if (mjd < kFirstLeapSecondMjd) {
+        constexpr double kJ2000Mjd = 51544.5;
+        constexpr double kDaysPerYear = 365.25;
+        const double year = 2000.0 + (mjd - kJ2000Mjd + second / kSecondsPerDay) / kDaysPerYear;
+        instant.ut1 = {day, second / kSecondsPerDay};
+        instant.tt = {day, (second + delta_t_s(year)) / kSecondsPerDay};
+        return instant;
+    }
+    const TaiOffset offset = tai_offset(mjd);
+    instant.leap_seconds_assumed = offset.assumed;
+    instant.tt = {day, (second + offset.tai_minus_utc_s + kTtMinusTai_s) / kSecondsPerDay};
+    if (dut1_s && std::isfinite(*dut1_s)) {
+        instant.ut1 = {day, (second + *dut1_s) / kSecondsPerDay};
+    } else {
+        instant.ut1 = {day, second / length_of_day_s(mjd)};
+    }
+    return instant;
+}
+
+}  // namespace skyig::server::ephemeris

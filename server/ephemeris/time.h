@@ -1,0 +1,104 @@
+// Civil UTC, a UTC clock that can be advanced, and the two uniform time scales the sky is computed from.
+// None of this reads a clock: time comes in as data.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace skyig::server::ephemeris {
+
+/// A date and time of day in UTC, proleptic Gregorian. Before 1972 the same fields mean UT1.
+struct CivilTime {
+    int year = 2000;
+    int month = 1;
+    int day = 1;
+    int hour = 12;
+    int minute = 0;
+    /// 0 <= second < 60; up to 61 in the last minute of a day that ends with a leap second.
+    double second = 0.0;
+
+    friend bool operator==(const CivilTime&, const CivilTime&) = default;
+};
+
+/// True for a date that exists (year 1..9999) and a time of day that exists on it, leap seconds included.
+[[nodiscard]] bool is_valid(const CivilTime& time) noexcept;
+
+/// A UTC instant as day and seconds of day: resolves 2e-11 s at any date, and 23:59:60 is a value of its own.
+/// Always valid: 0 <= second_of_day < length of that day. Advancing counts SI seconds, leap seconds included.
+class UtcClockTime {
+  public:
+    /// 2000-01-01T12:00:00Z.
+    constexpr UtcClockTime() noexcept = default;
+
+    /// \return nothing when `time` does not exist.
+    [[nodiscard]] static std::optional<UtcClockTime> from_civil(const CivilTime& time) noexcept;
+    /// From a POSIX clock (seconds since 1970 without leap seconds). `nanoseconds` in 0..999'999'999.
+    [[nodiscard]] static UtcClockTime from_unix(std::int64_t seconds, std::int32_t nanoseconds = 0) noexcept;
+
+    [[nodiscard]] CivilTime civil() const noexcept;
+    /// Modified Julian Day number of the UTC day.
+    [[nodiscard]] std::int32_t mjd() const noexcept { return mjd_; }
+    [[nodiscard]] double second_of_day() const noexcept { return second_of_day_; }
+
+    /// Moves by `seconds`, either way. Not-a-number and infinity move nothing; the result stays in the
+    /// years 1..9999.
+    void advance(double seconds) noexcept;
+
+    friend bool operator==(const UtcClockTime&, const UtcClockTime&) = default;
+
+  private:
+    constexpr UtcClockTime(std::int32_t mjd, double second_of_day) noexcept
+        : mjd_(mjd), second_of_day_(second_of_day) {}
+
+    std::int32_t mjd_ = 51544;
+    double second_of_day_ = 43200.0;
+};
+
+/// SI seconds from `earlier` to `later` (negative when they are the other way round), leap seconds included.
+[[nodiscard]] double seconds_between(const UtcClockTime& earlier, const UtcClockTime& later) noexcept;
+
+/// Reads "2026-06-21T19:30:00Z", with or without seconds, fraction of a second, or Z; a space may stand for
+/// T. \return nothing when the text has another shape or names a time that does not exist.
+[[nodiscard]] std::optional<UtcClockTime> parse_utc(std::string_view text) noexcept;
+
+/// "2026-06-21T19:30:00Z". `decimals` 0..9 of a second; cut off, not rounded, so that no :60 appears by
+/// rounding.
+[[nodiscard]] std::string to_iso(const UtcClockTime& time, int decimals = 0);
+
+/// A Julian date in two parts that are added; `day` is a whole or half number, `fraction` small.
+struct JulianDate {
+    double day = 2451545.0;
+    double fraction = 0.0;
+
+    friend bool operator==(const JulianDate&, const JulianDate&) = default;
+};
+
+/// One moment in the two scales that the sky needs: TT moves the bodies, UT1 turns the Earth.
+struct Instant {
+    JulianDate tt{2451544.5, 0.5 + 64.184 / 86400.0};
+    JulianDate ut1{2451544.5, 0.5};
+    /// The UTC was outside 1900-01-01 .. 2100-12-31 and the nearest end of that span is used.
+    bool clamped = false;
+    /// No leap seconds are announced that far ahead: TT - UTC is held at its last value. No error; worth one
+    /// log line.
+    bool leap_seconds_assumed = false;
+
+    friend bool operator==(const Instant&, const Instant&) = default;
+};
+
+/// TT and UT1 of a UTC instant.
+/// From 1972: TT = UTC + leap seconds + 32.184 s (table of the ERFA library; its last value, 69.184 s in all,
+/// beyond). Before: the input is UT1, TT = UT1 + delta_t_s(). \param dut1_s  UT1 - UTC from an
+/// Earth-orientation bulletin, |dut1_s| < 0.9; taken as given, so it has to step
+///   by one second at a leap second. Without it UT1 follows UTC within 0.9 s, and the leap second is spread
+///   evenly over its day, so that the Earth never turns backwards. Not finite: as if absent.
+[[nodiscard]] Instant make_instant(const UtcClockTime& utc,
+                                   std::optional<double> dut1_s = std::nullopt) noexcept;
+
+/// TT - UT1 in seconds, for years 1900 to 1986: polynomials of Espenak & Meeus 2006 (0.9 s to 1920, 0.4 s to
+/// 1941, then 0.15 s from the measured values). Used before 1972; years outside are taken as the nearer end.
+[[nodiscard]] double delta_t_s(double year) noexcept;
+
+}  // namespace skyig::server::ephemeris
