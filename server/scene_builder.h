@@ -1,0 +1,46 @@
+// From the world's state to the renderer's scene, once a frame.
+#pragma once
+
+#include <cstdint>
+
+#include "render/scene.h"
+#include "server/ephemeris/sky_clockwork.h"
+#include "server/world/world.h"
+
+namespace skyig::server {
+
+/// Angles of what is drawn, for people (reports, `skyig shot`): airless, topocentric.
+struct SkyAngles {
+    double sun_elevation_deg = 0.0;
+    double sun_azimuth_deg = 0.0;
+    double moon_elevation_deg = 0.0;
+    double moon_azimuth_deg = 0.0;
+    /// Part of the Moon's disc that is lit, 0..1.
+    double moon_lit_fraction = 0.0;
+};
+
+/// Keeps what the ephemeris has computed for the frames to come; the scenes themselves depend on the world
+/// alone.
+///
+/// The eye is the ownship's position plus the mean of all channels' offsets, turned by the attitude; the
+/// scene's axes are east-north-up there. A view's axes: ownship, then its group, then the view itself, each
+/// yaw, pitch, roll. Allocates nothing. Cost: under 5 microseconds while time runs on.
+class SceneBuilder {
+  public:
+    [[nodiscard]] render::Scene build(const world::World& world, std::uint64_t frame_number) noexcept;
+
+    /// Largest distance of a view's eye point from the one eye that is drawn, in the last scene.
+    [[nodiscard]] double eye_spread_m() const noexcept { return eye_spread_m_; }
+    /// The last scene's date lay outside what the ephemeris knows and was brought to the nearest that it
+    /// does.
+    [[nodiscard]] bool date_clamped() const noexcept { return date_clamped_; }
+
+  private:
+    ephemeris::SkyClockwork clockwork_;
+    double eye_spread_m_ = 0.0;
+    bool date_clamped_ = false;
+};
+
+[[nodiscard]] SkyAngles sky_angles(const render::Scene& scene) noexcept;
+
+}  // namespace skyig::server

@@ -1,0 +1,145 @@
+// The parts of the world's state as plain values, in the units of CIGI (degrees, metres) turned into no frame
+// yet.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string_view>
+
+#include "protocol/transport/endpoint.h"
+#include "server/ephemeris/sky_state.h"
+
+namespace skyig::server::world {
+
+/// CIGI modes as the host asks for them.
+enum class Mode : std::uint8_t { kStandby = 0, kOperate = 1, kDebug = 2 };
+
+/// What carries the eye: entity 0.
+struct Ownship {
+    ephemeris::Geodetic position;
+    /// About Z, then Y, then X of north-east-down axes: clockwise from true north, nose up, right wing down.
+    double yaw_deg = 0.0;
+    double pitch_deg = 0.0;
+    double roll_deg = 0.0;
+    /// False once the host has destroyed entity 0: the last pose stays, so that the picture stays.
+    bool exists = true;
+    /// A host has placed it since start-up or Standby.
+    bool placed_by_host = false;
+};
+
+struct CelestialSwitches {
+    bool sun = true;
+    bool moon = true;
+    bool stars = true;
+    /// Fraction of the full star field intensity, 0..1.
+    double star_intensity = 1.0;
+};
+
+/// The global base state of the air, always inside what can be drawn.
+struct AirState {
+    bool model_enabled = true;
+    /// Meteorological optical range, and the contrast that is left over at that range.
+    double visibility_m = 80000.0;
+    double visibility_contrast = 0.05;
+    double temperature_c = 15.0;
+    double pressure_hpa = 1013.25;
+    double humidity_pct = 50.0;
+    double wind_horizontal_m_s = 0.0;
+    double wind_vertical_m_s = 0.0;
+    /// Where it blows from, clockwise from true north.
+    double wind_from_deg = 0.0;
+};
+
+/// Place and turn of a view or of a view group: offset along the axes of what carries it (forward, right,
+/// down), then yaw, pitch, roll about the eye point.
+struct ViewPose {
+    glm::dvec3 offset_m{0.0};
+    double yaw_deg = 0.0;
+    double pitch_deg = 0.0;
+    double roll_deg = 0.0;
+
+    friend bool operator==(const ViewPose&, const ViewPose&) = default;
+};
+
+/// Signed half angles from the view axis to each side.
+struct HalfAngles {
+    double left_deg = 0.0;
+    double right_deg = 0.0;
+    double bottom_deg = 0.0;
+    double top_deg = 0.0;
+
+    friend bool operator==(const HalfAngles&, const HalfAngles&) = default;
+};
+
+/// One channel's view; the order is that of the configured channels.
+struct View {
+    std::uint16_t view_id = 0;
+    /// 0 = in no group.
+    std::uint8_t group_id = 0;
+    ViewPose pose;
+    HalfAngles half_angles;
+    /// As the host wants it; not drawn yet. 0 none, 1 horizontal, 2 vertical, 3 both.
+    std::uint8_t mirror_mode = 0;
+    /// As the host wants it; not drawn yet.
+    bool orthographic = false;
+};
+
+enum class LinkState : std::uint8_t { kNever, kAlive, kLost };
+
+/// The one host that is obeyed.
+struct Link {
+    LinkState state = LinkState::kNever;
+    /// Meaningless while kNever.
+    protocol::transport::Endpoint host;
+    /// World time since its last IG Control.
+    double silent_s = 0.0;
+    /// How often a host was lost.
+    std::uint64_t losses = 0;
+};
+
+/// What was refused or ignored by the world, each by its reason (what the decoder refuses is counted there).
+struct Counters {
+    std::uint64_t second_host = 0;       ///< messages of a host that is not the one obeyed
+    std::uint64_t no_host = 0;           ///< packets of a source without any valid IG Control yet
+    std::uint64_t standby_ignored = 0;   ///< packets other than IG Control in Standby
+    std::uint64_t other_entity = 0;      ///< entities other than the ownship: not drawn
+    std::uint64_t ownship_attached = 0;  ///< the ownship attached to a parent: its offsets mean nothing here
+    std::uint64_t position_refused = 0;  ///< ownship outside the heights that are drawn
+    std::uint64_t clock_refused = 0;     ///< a date and time that does not exist
+    std::uint64_t air_clamped = 0;       ///< air beyond what can be drawn, brought to the nearest that can
+    std::uint64_t unknown_view = 0;      ///< a view id that no channel has
+    std::uint64_t view_entity = 0;       ///< a view carried by another entity than the ownship
+    std::uint64_t frustum_refused = 0;   ///< half angles that leave no picture
+    std::uint64_t orthographic = 0;      ///< parallel projection: not drawn
+    std::uint64_t mirrored = 0;          ///< mirror mode: not drawn
+    std::uint64_t weather_full = 0;      ///< no room for another region or layer
+
+    friend bool operator==(const Counters&, const Counters&) = default;
+};
+
+struct NamedCounter {
+    std::string_view name;
+    std::uint64_t Counters::*value;
+};
+
+/// Every counter by name, for reports.
+inline constexpr std::array kCounterNames{
+    NamedCounter{"second_host", &Counters::second_host},
+    NamedCounter{"no_host", &Counters::no_host},
+    NamedCounter{"standby_ignored", &Counters::standby_ignored},
+    NamedCounter{"other_entity", &Counters::other_entity},
+    NamedCounter{"ownship_attached", &Counters::ownship_attached},
+    NamedCounter{"position_refused", &Counters::position_refused},
+    NamedCounter{"clock_refused", &Counters::clock_refused},
+    NamedCounter{"air_clamped", &Counters::air_clamped},
+    NamedCounter{"unknown_view", &Counters::unknown_view},
+    NamedCounter{"view_entity", &Counters::view_entity},
+    NamedCounter{"frustum_refused", &Counters::frustum_refused},
+    NamedCounter{"orthographic", &Counters::orthographic},
+    NamedCounter{"mirrored", &Counters::mirrored},
+    NamedCounter{"weather_full", &Counters::weather_full},
+};
+static_assert(sizeof(Counters) == kCounterNames.size() * sizeof(std::uint64_t));
+
+}  // namespace skyig::server::world

@@ -1,0 +1,99 @@
+// The state of the world between the decoder and the scene: what the host has said, kept until it says
+// otherwise, and moved on in time. No clock, no socket, no picture in here.
+#pragma once
+
+#include "config/config.h"
+#include "protocol/cigi/packets.h"
+#include "protocol/transport/endpoint.h"
+#include "server/ephemeris/time.h"
+#include "server/log.h"
+#include "server/world/state.h"
+#include "server/world/utc_clock.h"
+#include "server/world/views.h"
+#include "server/world/weather_store.h"
+
+namespace skyig::server::world {
+
+/// Give it each datagram as begin_message(from) and then the decoded packets, IG Control first: a World is a
+/// handler for protocol::cigi::decode_host_message(). Then advance() once a frame.
+///
+/// Authority: the first host whose IG Control is valid is obeyed; messages of any other address or port are
+/// counted and ignored until that host is lost (silent for `host.lost_after_s` of world time) or forgotten.
+/// Persistence: nothing times out. A lost host's world stands as it was and its clock runs on.
+/// Standby: only the mode of IG Control is obeyed. Entering it brings back the configured world.
+/// Steady state allocates nothing. Not for several threads.
+class World {
+  public:
+    /// \param start_utc  the instant that `config.start.utc` means: that one, or the system's if it says
+    /// "now". Both references must outlive the world.
+    World(const config::Config& config, const ephemeris::UtcClockTime& start_utc, Log& log);
+
+    /// The packets that follow come in one message from there.
+    void begin_message(const protocol::transport::Endpoint& from) noexcept;
+
+    void operator()(const protocol::cigi::IgControl& packet);
+    void operator()(const protocol::cigi::EntityControl& packet);
+    void operator()(const protocol::cigi::EntityPosition& packet);
+    void operator()(const protocol::cigi::CelestialSphereControl& packet);
+    void operator()(const protocol::cigi::AtmosphereControl& packet);
+    void operator()(const protocol::cigi::WeatherControl& packet);
+    void operator()(const protocol::cigi::EnvRegionControl& packet);
+    void operator()(const protocol::cigi::ViewControl& packet);
+    void operator()(const protocol::cigi::ViewDefinition& packet);
+
+    /// Moves time on by `step_s` >= 0: clock, link supervision.
+    void advance(double step_s);
+
+    /// True from begin_message() on if its packets are obeyed (known after its IG Control).
+    [[nodiscard]] bool message_obeyed() const noexcept { return obeyed_; }
+
+    [[nodiscard]] Mode mode() const noexcept { return mode_; }
+    [[nodiscard]] const Link& link() const noexcept { return link_; }
+    [[nodiscard]] const Ownship& ownship() const noexcept { return ownship_; }
+    [[nodiscard]] const UtcClock& clock() const noexcept { return clock_; }
+    [[nodiscard]] const CelestialSwitches& celestial() const noexcept { return celestial_; }
+    [[nodiscard]] const AirState& air() const noexcept { return air_; }
+    [[nodiscard]] const Views& views() const noexcept { return views_; }
+    [[nodiscard]] const WeatherStore& weather() const noexcept { return weather_; }
+    [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+
+    /// Scene time, seconds since start: the sum of all steps, and of the steps of the UTC clock by more than
+    /// kClockJump_s when somebody set it. It runs while the UTC clock is frozen.
+    [[nodiscard]] double time_s() const noexcept { return time_s_; }
+
+    static constexpr double kClockJump_s = 2.0;
+
+  private:
+    [[nodiscard]] bool accepts() noexcept;
+    void take_host(const protocol::cigi::IgControl& packet);
+    void enter_mode(Mode mode);
+    void reset();
+    void supervise_link(double step_s);
+    void place_ownship(bool attached, double latitude_deg, double longitude_deg, double height_m,
+                       const glm::dvec3& yaw_pitch_roll_deg);
+    void note_view(ViewResult result, unsigned view_id);
+
+    const config::Config& config_;
+    Log& log_;
+
+    protocol::transport::Endpoint from_;
+    bool obeyed_ = false;
+    bool heard_control_ = false;
+    int host_major_version_ = 3;
+    bool second_host_said_ = false;
+
+    Mode mode_ = Mode::kStandby;
+    Link link_;
+    /// What the clock comes back to in Standby: the configured instant, or the system's clock as it goes on.
+    ephemeris::UtcClockTime default_utc_;
+    UtcClock clock_;
+    Ownship ownship_;
+    CelestialSwitches celestial_;
+    AirState air_;
+    Views views_;
+    WeatherStore weather_;
+    Counters counters_;
+    double time_s_ = 0.0;
+};
+
+}  // namespace skyig::server::world
