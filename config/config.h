@@ -52,6 +52,9 @@ struct Daemon {
     double rate_hz = 60.0;
 };
 
+/// "accept": any database number the host asks for counts as loaded; "none": 0 is reported always.
+enum class DatabasePolicy { kAccept, kNone };
+
 struct Host {
     UdpAddress listen{"127.0.0.1", 8004};
     /// Where answers go; empty ("sender" in the file): to the last valid sender.
@@ -60,6 +63,7 @@ struct Host {
     std::vector<std::string> allow{"127.0.0.1"};
     /// Announced in Start of Frame until a host speaks; then the host's own version is used.
     CigiVersion cigi;
+    DatabasePolicy database = DatabasePolicy::kAccept;
     /// A host silent for so long is said to be lost, 0.1..3600.
     double lost_after_s = 1.0;
 };

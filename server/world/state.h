@@ -12,9 +12,6 @@
 
 namespace skyig::server::world {
 
-/// CIGI modes as the host asks for them.
-enum class Mode : std::uint8_t { kStandby = 0, kOperate = 1, kDebug = 2 };
-
 /// What carries the eye: entity 0.
 struct Ownship {
     ephemeris::Geodetic position;
@@ -103,6 +100,8 @@ struct Counters {
     std::uint64_t second_host = 0;       ///< messages of a host that is not the one obeyed
     std::uint64_t no_host = 0;           ///< packets of a source without any valid IG Control yet
     std::uint64_t standby_ignored = 0;   ///< packets other than IG Control in Standby
+    std::uint64_t late_ignored = 0;      ///< packets of a message that newer ones have overtaken
+    std::uint64_t frames_missed = 0;     ///< host messages that never came
     std::uint64_t other_entity = 0;      ///< entities other than the ownship: not drawn
     std::uint64_t ownship_attached = 0;  ///< the ownship attached to a parent: its offsets mean nothing here
     std::uint64_t position_refused = 0;  ///< ownship outside the heights that are drawn
@@ -128,6 +127,8 @@ inline constexpr std::array kCounterNames{
     NamedCounter{"second_host", &Counters::second_host},
     NamedCounter{"no_host", &Counters::no_host},
     NamedCounter{"standby_ignored", &Counters::standby_ignored},
+    NamedCounter{"late_ignored", &Counters::late_ignored},
+    NamedCounter{"frames_missed", &Counters::frames_missed},
     NamedCounter{"other_entity", &Counters::other_entity},
     NamedCounter{"ownship_attached", &Counters::ownship_attached},
     NamedCounter{"position_refused", &Counters::position_refused},

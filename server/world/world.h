@@ -3,7 +3,8 @@
 #pragma once
 
 #include "config/config.h"
-#include "protocol/cigi/packets.h"
+#include "protocol/cigi/message.h"
+#include "protocol/cigi/session.h"
 #include "protocol/transport/endpoint.h"
 #include "server/ephemeris/time.h"
 #include "server/log.h"
@@ -31,8 +32,8 @@ class World {
     /// The packets that follow come in one message from there.
     void begin_message(const protocol::transport::Endpoint& from) noexcept;
 
-    void operator()(const protocol::cigi::IgControl& packet);
-    void operator()(const protocol::cigi::EntityControl& packet);
+    void operator()(const protocol::cigi::IgControl& packet, const protocol::cigi::PacketInfo& info);
+    void operator()(const protocol::cigi::EntityControl& packet, const protocol::cigi::PacketInfo& info);
     void operator()(const protocol::cigi::EntityPosition& packet);
     void operator()(const protocol::cigi::CelestialSphereControl& packet);
     void operator()(const protocol::cigi::AtmosphereControl& packet);
@@ -44,10 +45,15 @@ class World {
     /// Moves time on by `step_s` >= 0: clock, link supervision.
     void advance(double step_s);
 
-    /// True from begin_message() on if its packets are obeyed (known after its IG Control).
-    [[nodiscard]] bool message_obeyed() const noexcept { return obeyed_; }
+    /// Whether the current message came from the obeyed host (known after its IG Control).
+    [[nodiscard]] bool from_obeyed_host() const noexcept {
+        return verdict_ != Verdict::kNoControl && verdict_ != Verdict::kOtherHost;
+    }
 
-    [[nodiscard]] Mode mode() const noexcept { return mode_; }
+    [[nodiscard]] protocol::cigi::IgMode mode() const noexcept { return session_.mode(); }
+    /// The obeyed host's side of the link, fed with its messages only: makes each frame's Start of Frame.
+    [[nodiscard]] protocol::cigi::Session& session() noexcept { return session_; }
+    [[nodiscard]] const protocol::cigi::Session& session() const noexcept { return session_; }
     [[nodiscard]] const Link& link() const noexcept { return link_; }
     [[nodiscard]] const Ownship& ownship() const noexcept { return ownship_; }
     [[nodiscard]] const UtcClock& clock() const noexcept { return clock_; }
@@ -64,25 +70,28 @@ class World {
     static constexpr double kClockJump_s = 2.0;
 
   private:
-    [[nodiscard]] bool accepts() noexcept;
-    void take_host(const protocol::cigi::IgControl& packet);
-    void enter_mode(Mode mode);
+    enum class Verdict : std::uint8_t { kNoControl, kObeyed, kOtherHost, kStandby, kLate };
+
+    /// Whether packets of the current message count; if not, says so in the counters.
+    [[nodiscard]] bool obeyed() noexcept;
+    [[nodiscard]] bool claim_link(const protocol::cigi::PacketInfo& info);
+    void announce_host(const protocol::cigi::PacketInfo& info);
+    void note_events(const protocol::cigi::SessionEvents& events);
     void reset();
     void supervise_link(double step_s);
-    void place_ownship(bool attached, double latitude_deg, double longitude_deg, double height_m,
-                       const glm::dvec3& yaw_pitch_roll_deg);
-    void note_view(ViewResult result, unsigned view_id);
+    void place_ownship(bool attached, const ephemeris::Geodetic& position, double yaw_deg, double pitch_deg,
+                       double roll_deg);
+    void note_view(ViewResult result, const protocol::cigi::ViewControl* control,
+                   const protocol::cigi::ViewDefinition* definition);
 
     const config::Config& config_;
     Log& log_;
 
     protocol::transport::Endpoint from_;
-    bool obeyed_ = false;
-    bool heard_control_ = false;
-    int host_major_version_ = 3;
+    Verdict verdict_ = Verdict::kNoControl;
     bool second_host_said_ = false;
 
-    Mode mode_ = Mode::kStandby;
+    protocol::cigi::Session session_;
     Link link_;
     /// What the clock comes back to in Standby: the configured instant, or the system's clock as it goes on.
     ephemeris::UtcClockTime default_utc_;
