@@ -1,0 +1,233 @@
+#include "protocol/cigi/validate.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <type_traits>
+
+#include "protocol/cigi/layout.h"
+#include "protocol/cigi/layout_host.h"
+#include "protocol/cigi/layout_ig.h"
+
+namespace skyig::protocol::cigi {
+namespace {
+
+constexpr double kTurn = 360.0;
+/// Angles within two turns are taken for angles, larger ones for garbage.
+constexpr double kLargestAngle = 720.0;
+/// Positive seconds below this are an unsigned integer that was read as a float: 1..59 read as 1.4e-45
+/// .. 8.3e-44.
+constexpr float kSmallestSeconds = 1.0e-30F;
+
+Verdict refuse(Count reason, std::string_view field) noexcept {
+    return {false, false, reason, field};
+}
+
+/// Brings an angle into [-180, 180] or [0, 360] if it is outside; false if it is no angle.
+template <class T>
+bool wrap(T& angle, bool full_turn) noexcept {
+    const double value = static_cast<double>(angle);
+    if (std::abs(value) > kLargestAngle) return false;
+    const double low = full_turn ? 0.0 : -kTurn / 2;
+    if (value >= low && value <= low + kTurn) return true;
+    double wrapped = std::remainder(value, kTurn);
+    if (full_turn && wrapped < 0.0) wrapped += kTurn;
+    angle = static_cast<T>(wrapped);
+    return true;
+}
+
+/// Applies the range of one field; false if the value is out of it.
+template <class T>
+bool apply(const Range& range, T& value, bool& clamped) noexcept {
+    using Kind = Range::Kind;
+    if constexpr (std::is_enum_v<T>) {
+        return range.kind == Kind::kAny || static_cast<double>(value) <= range.high;
+    } else if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
+        const auto number = static_cast<double>(value);
+        switch (range.kind) {
+            case Kind::kAny:
+                return true;
+            case Kind::kClosed:
+                return number >= range.low && number <= range.high;
+            case Kind::kHalfOpen:
+                return number >= range.low && number < range.high;
+            case Kind::kPositive:
+                return number > 0.0;
+            case Kind::kPercent:
+                clamped = clamped || number < 0.0 || number > 100.0;
+                value = static_cast<T>(std::clamp(number, 0.0, 100.0));
+                return true;
+            case Kind::kHalfTurn:
+            case Kind::kFullTurn:
+                if constexpr (std::is_floating_point_v<T>) return wrap(value, range.kind == Kind::kFullTurn);
+                return true;
+        }
+    }
+    return true;
+}
+
+/// One field: meaning, finiteness, range.
+template <class P, class T>
+void check(P& packet, const Field<P, T>& field, Verdict& verdict) noexcept {
+    T& value = packet.*(field.member);
+    const bool counts = field.counts == nullptr || field.counts(packet);
+    if constexpr (std::is_floating_point_v<T>) {
+        if (!std::isfinite(value)) {
+            if (counts) {
+                verdict = refuse(Count::kNonfinite, field.name);
+                return;
+            }
+            value = P{}.*(field.member);
+        }
+    }
+    if (counts && !apply(field.range, value, verdict.clamped))
+        verdict = refuse(Count::kOutOfRange, field.name);
+}
+
+template <class P>
+void check_geodetic(P& packet, Verdict& verdict) noexcept {
+    if (packet.lat_x < -90.0 || packet.lat_x > 90.0) {
+        verdict = refuse(Count::kOutOfRange, "lat_x");
+    } else if (!wrap(packet.lon_y, false)) {
+        verdict = refuse(Count::kOutOfRange, "lon_y");
+    }
+}
+
+// prepare: what a sender is known to do wrong, mended before the fields are checked.
+// check_together: what ties fields together, after each is good by itself.
+
+template <class P>
+void prepare(P& /*packet*/) noexcept {}
+template <class P>
+void check_together(P& /*packet*/, Version /*version*/, Verdict& /*verdict*/) noexcept {}
+
+template <>
+void prepare(CelestialSphereControl& packet) noexcept {
+    // Compared as integers: a processor that flushes denormals would see 0.
+    const auto word = std::bit_cast<std::uint32_t>(packet.seconds);
+    if (word > 0 && word < std::bit_cast<std::uint32_t>(kSmallestSeconds))
+        packet.seconds = static_cast<float>(word);
+}
+
+template <>
+void check_together(CelestialSphereControl& packet, Version /*version*/, Verdict& verdict) noexcept {
+    Date date;
+    if (packet.date_time_valid && !parse_date(packet.date, date))
+        verdict = refuse(Count::kOutOfRange, "date");
+}
+
+template <>
+void check_together(EntityControl& packet, Version version, Verdict& verdict) noexcept {
+    if (version == Version::k33 && !packet.attach_state && packet.entity_state != EntityState::kDestroyed) {
+        check_geodetic(packet, verdict);
+    }
+}
+
+template <>
+void check_together(EntityPosition& packet, Version /*version*/, Verdict& verdict) noexcept {
+    if (!packet.attach_state) check_geodetic(packet, verdict);
+}
+
+template <>
+void check_together(HatHotRequest& packet, Version /*version*/, Verdict& verdict) noexcept {
+    if (!packet.coordinate_system) check_geodetic(packet, verdict);
+}
+
+template <>
+void check_together(PositionResponse& packet, Version /*version*/, Verdict& verdict) noexcept {
+    if (packet.coordinate_system == 0) check_geodetic(packet, verdict);
+}
+
+template <>
+void check_together(EnvRegionControl& packet, Version /*version*/, Verdict& verdict) noexcept {
+    if (packet.region_state == RegionState::kDestroyed) return;
+    const float largest = std::min(packet.size_x, packet.size_y) / 2.0F;
+    if (packet.corner_radius > largest) {
+        packet.corner_radius = largest;
+        verdict.clamped = true;
+    }
+}
+
+template <>
+void check_together(WeatherControl& packet, Version version, Verdict& /*verdict*/) noexcept {
+    if (version != Version::k33) return;
+    packet.top_scud_enable = packet.scud_enable;
+    packet.top_scud_frequency = packet.scud_frequency;
+    packet.top_transition_band = packet.transition_band;
+}
+
+template <>
+void check_together(ViewDefinition& packet, Version /*version*/, Verdict& verdict) noexcept {
+    if (packet.left_enable && packet.right_enable && packet.left >= packet.right) {
+        verdict = refuse(Count::kOutOfRange, "left");
+    } else if (packet.bottom_enable && packet.top_enable && packet.bottom >= packet.top) {
+        verdict = refuse(Count::kOutOfRange, "bottom");
+    } else if (packet.near_enable && packet.far_enable && packet.far <= packet.near) {
+        verdict = refuse(Count::kOutOfRange, "far");
+    }
+}
+
+constexpr bool is_leap(int year) noexcept {
+    return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+}
+
+constexpr int days_in_month(int year, int month) noexcept {
+    constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    return month == 2 && is_leap(year) ? 29 : kDays[month - 1];
+}
+
+}  // namespace
+
+bool parse_date(std::uint32_t mmddyyyy, Date& date) noexcept {
+    const auto year = static_cast<int>(mmddyyyy % 10000U);
+    const auto day = static_cast<int>(mmddyyyy / 10000U % 100U);
+    const auto month = static_cast<int>(mmddyyyy / 1000000U);
+    if (month < 1 || month > 12 || day < 1 || day > days_in_month(year, month)) return false;
+    date = {year, month, day};
+    return true;
+}
+
+std::uint32_t make_date(const Date& date) noexcept {
+    return static_cast<std::uint32_t>(date.month * 1000000 + date.day * 10000 + date.year);
+}
+
+template <class P>
+Verdict validate(P& packet, Version version) noexcept {
+    Verdict verdict;
+    prepare(packet);
+    for_each_field<P>([&](const auto& field) {
+        if (verdict.accepted && field.place(version).present) check(packet, field, verdict);
+    });
+    if (verdict.accepted) check_together(packet, version, verdict);
+    return verdict;
+}
+
+// A type of AllPackets that is missing here shows as an undefined reference.
+#define SKYIG_CIGI_PACKET(P) template Verdict validate<P>(P&, Version) noexcept;
+SKYIG_CIGI_PACKET(IgControl)
+SKYIG_CIGI_PACKET(EntityControl)
+SKYIG_CIGI_PACKET(EntityPosition)
+SKYIG_CIGI_PACKET(ComponentControl)
+SKYIG_CIGI_PACKET(ShortComponentControl)
+SKYIG_CIGI_PACKET(CelestialSphereControl)
+SKYIG_CIGI_PACKET(AtmosphereControl)
+SKYIG_CIGI_PACKET(EnvRegionControl)
+SKYIG_CIGI_PACKET(WeatherControl)
+SKYIG_CIGI_PACKET(ViewControl)
+SKYIG_CIGI_PACKET(ViewDefinition)
+SKYIG_CIGI_PACKET(HatHotRequest)
+SKYIG_CIGI_PACKET(PositionRequest)
+SKYIG_CIGI_PACKET(EnvConditionsRequest)
+SKYIG_CIGI_PACKET(StartOfFrame)
+SKYIG_CIGI_PACKET(HatHotResponse)
+SKYIG_CIGI_PACKET(HatHotExtendedResponse)
+SKYIG_CIGI_PACKET(PositionResponse)
+SKYIG_CIGI_PACKET(WeatherConditionsResponse)
+SKYIG_CIGI_PACKET(AerosolResponse)
+SKYIG_CIGI_PACKET(MaritimeSurfaceResponse)
+SKYIG_CIGI_PACKET(TerrestrialSurfaceResponse)
+SKYIG_CIGI_PACKET(EventNotification)
+SKYIG_CIGI_PACKET(IgMessage)
+#undef SKYIG_CIGI_PACKET
+
+}  // namespace skyig::protocol::cigi
