@@ -30,7 +30,8 @@ struct PlannedPass {
     std::string_view reason;
 };
 
-/// What the renderer already holds, so that the plan can say what is stale.
+/// What the renderer already holds, so that the plan can say what is stale. A sky is valid if it was made of
+/// the air that is held.
 struct Held {
     bool air_valid = false;
     Air air;

@@ -1,0 +1,114 @@
+#include "render/discs.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "render/colour.h"
+#include "render/night/moon_light.h"
+
+namespace skyig::render {
+
+namespace {
+
+void set_frame(const gl::Program& program, const DiscFrame& frame, bool dither) {
+    program.set(program.uniform("u_centre_enu"), frame.centre_enu);
+    program.set(program.uniform("u_right_enu"), frame.right_enu);
+    program.set(program.uniform("u_up_enu"), frame.up_enu);
+    program.set(program.uniform("u_extent"), frame.radius + 2.0F * frame.pixel_rad);
+    program.set(program.uniform("u_radius"), frame.radius);
+    program.set(program.uniform("u_pixel_rad"), frame.pixel_rad);
+    program.set(program.uniform("u_horizon_sin"), std::sin(frame.horizon_rad));
+    program.set(program.uniform("u_horizon_cos"), std::cos(frame.horizon_rad));
+    program.set(program.uniform("u_background_cd_m2"), frame.background_cd_m2);
+    program.set(program.uniform("u_dither_codes"), dither ? 1.0F : 0.0F);
+}
+
+// Linear limb darkening at red, green and blue (fits to Neckel and Labs 1994 near 610, 550 and 465 nm).
+const glm::vec3 kLimb{0.53F, 0.60F, 0.72F};
+
+}  // namespace
+
+ToneUniforms::ToneUniforms(const gl::Program& program, bool all) {
+    encode_power_ = program.uniform("u_tone.encode_power");
+    if (!all) return;
+    log2_gain_ = program.uniform("u_tone.log2_gain");
+    exponent_ = program.uniform("u_tone.exponent");
+    photopic_ = program.uniform("u_tone.photopic");
+    inv_display_max_ = program.uniform("u_tone.inv_display_max");
+}
+
+void ToneUniforms::set(const gl::Program& program, const shaders32::ToneParameters& tone) const {
+    program.set(encode_power_, tone.encode_power);
+    if (exponent_ < 0) return;
+    program.set(log2_gain_, tone.log2_gain);
+    program.set(exponent_, tone.exponent);
+    program.set(photopic_, tone.photopic);
+    program.set(inv_display_max_, tone.inv_display_max);
+}
+
+DiscFrame disc_frame(const glm::dvec3& centre_enu, double angular_radius_rad, double pixel_rad,
+                     const SkyLight& light) noexcept {
+    // At the zenith any right will do: east there.
+    const glm::dvec3 level = glm::cross(centre_enu, glm::dvec3{0.0, 0.0, 1.0});
+    const double length = glm::length(level);
+    const glm::dvec3 right = length > 1e-9 ? level / length : glm::dvec3{1.0, 0.0, 0.0};
+    const Horizontal at = horizontal_of(centre_enu);
+    DiscFrame frame;
+    frame.centre_enu = centre_enu;
+    frame.right_enu = right;
+    frame.up_enu = glm::normalize(glm::cross(right, centre_enu));
+    frame.radius = static_cast<float>(std::tan(angular_radius_rad));
+    frame.pixel_rad = static_cast<float>(pixel_rad);
+    frame.horizon_rad = static_cast<float>(light.horizon_elevation_rad);
+    frame.background_cd_m2 = light.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kSky);
+    return frame;
+}
+
+SunDisc::SunDisc() : program_("sky/disc.vert", "sky/sun.frag"), square_({}, 4), tone_(program_, true) {}
+
+void SunDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
+                      const shaders32::ToneParameters& tone, bool dither) {
+    const Sun& sun = scene.sun;
+    set_frame(program_, disc_frame(sun.direction_enu, sun.angular_radius_rad, pixel_rad, light), dither);
+    const double sine = std::sin(sun.angular_radius_rad);
+    const glm::dvec3 illuminance = air.direct_sun_xyz(
+        light.eye_height_m, horizontal_of(sun.direction_enu).elevation_rad, sun.distance_au);
+    const glm::dvec3 mean = illuminance / (std::numbers::pi * sine * sine);
+    program_.set(program_.uniform("u_disc_cd_m2"), rec709_from_xyz(glm::vec3{mean}));
+    program_.set(program_.uniform("u_limb"), kLimb);
+    tone_.set(program_, tone);
+}
+
+void SunDisc::draw(const glm::mat4& clip_from_enu) const {
+    program_.use();
+    program_.set(program_.uniform("u_clip_from_enu"), clip_from_enu);
+    square_.draw_strip(4);
+}
+
+MoonDisc::MoonDisc() : program_("sky/disc.vert", "night/moon.frag"), square_({}, 4), tone_(program_, true) {}
+
+void MoonDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
+                       const shaders32::ToneParameters& tone, bool dither) {
+    const Moon& moon = scene.moon;
+    const DiscFrame frame = disc_frame(moon.direction_enu, moon.angular_radius_rad, pixel_rad, light);
+    set_frame(program_, frame, dither);
+    const glm::dvec3 through =
+        air.transmittance_rgb(light.eye_height_m, horizontal_of(moon.direction_enu).elevation_rad);
+    const glm::dvec3 face = night::moon_tint_rgb() * night::moon_face_cd_m2(moon) * through;
+    const glm::dvec3 dark_side = glm::dvec3{night::earthshine_cd_m2(moon.phase_angle_rad)} * through;
+    program_.set(program_.uniform("u_full_cd_m2"), glm::vec3{face});
+    program_.set(program_.uniform("u_earthshine_cd_m2"), glm::vec3{dark_side});
+    const glm::vec3 to_sun{moon.to_sun_enu};
+    program_.set(program_.uniform("u_to_sun_disc"),
+                 glm::vec3{glm::dot(to_sun, frame.right_enu), glm::dot(to_sun, frame.up_enu),
+                           -glm::dot(to_sun, frame.centre_enu)});
+    tone_.set(program_, tone);
+}
+
+void MoonDisc::draw(const glm::mat4& clip_from_enu) const {
+    program_.use();
+    program_.set(program_.uniform("u_clip_from_enu"), clip_from_enu);
+    square_.draw_strip(4);
+}
+
+}  // namespace skyig::render

@@ -1,0 +1,33 @@
+#include "render/gl/draw.h"
+
+#include <epoxy/gl.h>
+
+namespace skyig::render::gl {
+
+void set_common_state() {
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_DITHER);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+}
+
+void set_blend(Blend blend) {
+    if (blend == Blend::kReplace) {
+        glDisable(GL_BLEND);
+        return;
+    }
+    glEnable(GL_BLEND);
+    if (blend == Blend::kAdd) {
+        glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
+    } else {
+        glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    }
+}
+
+void finish() {
+    glFinish();
+}
+
+}  // namespace skyig::render::gl

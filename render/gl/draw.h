@@ -1,0 +1,19 @@
+// The few pieces of pipeline state that the passes need.
+#pragma once
+
+namespace skyig::render::gl {
+
+enum class Blend {
+    kReplace,
+    kAdd,       ///< colour is added to what is there
+    kCoverage,  ///< alpha is the covered part of the pixel
+};
+
+/// State that all passes share: no depth, no culling, points sized by the shader.
+void set_common_state();
+void set_blend(Blend blend);
+
+/// Blocks until all commands so far are executed.
+void finish();
+
+}  // namespace skyig::render::gl

@@ -1,0 +1,79 @@
+#include "render/gl/mesh.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace skyig::render::gl {
+
+Mesh::Mesh(std::initializer_list<int> components, std::size_t max_vertices) {
+    glCreateVertexArrays(1, &array_);
+    glCreateBuffers(1, &vertices_);
+    GLuint location = 0;
+    GLuint offset = 0;
+    for (const int count : components) {
+        glEnableVertexArrayAttrib(array_, location);
+        glVertexArrayAttribFormat(array_, location, count, GL_FLOAT, GL_FALSE, offset);
+        glVertexArrayAttribBinding(array_, location, 0);
+        offset += static_cast<GLuint>(static_cast<std::size_t>(count) * sizeof(float));
+        ++location;
+    }
+    capacity_bytes_ = std::size_t{offset} * max_vertices;
+    glNamedBufferStorage(vertices_, static_cast<GLsizeiptr>(std::max<std::size_t>(capacity_bytes_, 4)),
+                         nullptr, GL_DYNAMIC_STORAGE_BIT);
+    if (offset > 0) glVertexArrayVertexBuffer(array_, 0, vertices_, 0, static_cast<GLsizei>(offset));
+}
+
+Mesh::~Mesh() {
+    if (array_ == 0) return;
+    glDeleteVertexArrays(1, &array_);
+    glDeleteBuffers(1, &vertices_);
+    if (indices_ != 0) glDeleteBuffers(1, &indices_);
+}
+
+Mesh::Mesh(Mesh&& other) noexcept
+    : array_(std::exchange(other.array_, 0U)),
+      vertices_(std::exchange(other.vertices_, 0U)),
+      indices_(std::exchange(other.indices_, 0U)),
+      capacity_bytes_(other.capacity_bytes_),
+      index_count_(other.index_count_) {}
+
+Mesh& Mesh::operator=(Mesh&& other) noexcept {
+    std::swap(array_, other.array_);
+    std::swap(vertices_, other.vertices_);
+    std::swap(indices_, other.indices_);
+    std::swap(capacity_bytes_, other.capacity_bytes_);
+    std::swap(index_count_, other.index_count_);
+    return *this;
+}
+
+void Mesh::set_indices(std::span<const std::uint32_t> indices) {
+    if (indices_ != 0) glDeleteBuffers(1, &indices_);
+    glCreateBuffers(1, &indices_);
+    glNamedBufferStorage(indices_, static_cast<GLsizeiptr>(indices.size_bytes()), indices.data(), 0);
+    glVertexArrayElementBuffer(array_, indices_);
+    index_count_ = indices.size();
+}
+
+void Mesh::update(std::span<const float> vertices) {
+    const std::size_t bytes = std::min(vertices.size_bytes(), capacity_bytes_);
+    if (bytes > 0) glNamedBufferSubData(vertices_, 0, static_cast<GLsizeiptr>(bytes), vertices.data());
+}
+
+void Mesh::draw_triangles() const {
+    glBindVertexArray(array_);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(index_count_), GL_UNSIGNED_INT, nullptr);
+}
+
+void Mesh::draw_points(std::size_t count) const {
+    glBindVertexArray(array_);
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count));
+}
+
+void Mesh::draw_strip(std::size_t count) const {
+    glBindVertexArray(array_);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, static_cast<GLsizei>(count));
+}
+
+}  // namespace skyig::render::gl

@@ -1,0 +1,278 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "render/discs.h"
+#include "render/dome.h"
+#include "render/eye/adaptation.h"
+#include "render/eye/tone_curve.h"
+#include "render/gl/debug_log.h"
+#include "render/gl/draw.h"
+#include "render/gl/framebuffer.h"
+#include "render/gl/mesh.h"
+#include "render/gl/program.h"
+#include "render/light_tables.h"
+#include "render/star_field.h"
+
+namespace skyig::render {
+
+namespace {
+
+// Points whose centre lies outside the picture by less than half a footprint still show.
+constexpr int kStarGuard_px = 4;
+
+// A shift of adaptation smaller than this moves no pixel by half a display code.
+constexpr double kAdaptationStep = 0.002;
+
+// Of the sources' relative azimuth, or of the moonlit share: below it the dome's colours stay.
+constexpr float kLightStep = 5e-4F;
+
+// Directions at infinity: z is 0, which no depth range clips; w is the distance along the view axis.
+glm::dmat4 clip_from_view(const Frustum& frustum, double guard_x, double guard_y) {
+    const ImagePlane p = image_plane(frustum);
+    const double width = (p.right - p.left) * guard_x;
+    const double height = (p.top - p.bottom) * guard_y;
+    return {glm::dvec4{2.0 / width, 0.0, 0.0, 0.0}, glm::dvec4{0.0, 2.0 / height, 0.0, 0.0},
+            glm::dvec4{(p.right + p.left) / width, (p.top + p.bottom) / height, 0.0, -1.0}, glm::dvec4{0.0}};
+}
+
+// The source that lights most of the sky decides where the dome is finest.
+double primary_azimuth(const SkyLight& light) {
+    if (light.sun.view != nullptr &&
+        (light.moon.view == nullptr || light.sun.view->source_elevation_rad() > -0.2)) {
+        return light.sun.azimuth_rad;
+    }
+    return light.moon.view != nullptr ? light.moon.azimuth_rad : 0.0;
+}
+
+double primary_elevation(const SkyLight& light) {
+    if (light.sun.view != nullptr &&
+        (light.moon.view == nullptr || light.sun.view->source_elevation_rad() > -0.2)) {
+        return light.sun.view->source_elevation_rad();
+    }
+    return light.moon.view != nullptr ? light.moon.view->source_elevation_rad() : 0.0;
+}
+
+class StarPass {
+  public:
+    StarPass()
+        : program_("night/star.vert", "night/star.frag"),
+          mesh_({3, 3, 3}, field_.capacity()),
+          tone_(program_, false),
+          clip_(program_.uniform("u_clip_from_enu")),
+          viewport_(program_.uniform("u_viewport_px")),
+          guard_(program_.uniform("u_guard_px")),
+          pixel_area_(program_.uniform("u_pixel_area")),
+          point_gain_(program_.uniform("u_point_gain")) {}
+
+    void prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light,
+                 const shaders64::ToneParameters& tone, double limit_mag) {
+        field_.update(scene, air, light, tone, limit_mag);
+        const auto stars = field_.stars();
+        mesh_.update({reinterpret_cast<const float*>(stars.data()), stars.size_bytes() / sizeof(float)});
+        const auto tone32 = eye::single_precision(tone);
+        tone_.set(program_, tone32);
+        program_.set(point_gain_, tone32.point_gain * tone32.inv_display_max);
+    }
+
+    void draw(const Channel& channel, const ChannelView& view) const {
+        const double width = channel.width_px + 2.0 * kStarGuard_px;
+        const double height = channel.height_px + 2.0 * kStarGuard_px;
+        const ImagePlane p = image_plane(view.frustum);
+        program_.use();
+        program_.set(clip_, glm::mat4{clip_from_view(view.frustum, width / channel.width_px,
+                                                     height / channel.height_px) *
+                                      glm::dmat4{view.view_from_enu}});
+        program_.set(viewport_, glm::vec2{glm::dvec2{width, height}});
+        program_.set(guard_, static_cast<float>(kStarGuard_px));
+        program_.set(pixel_area_,
+                     static_cast<float>((p.right - p.left) * (p.top - p.bottom) /
+                                        (static_cast<double>(channel.width_px) * channel.height_px)));
+        mesh_.draw_points(field_.stars().size());
+    }
+
+    [[nodiscard]] std::size_t count() const { return field_.stars().size(); }
+
+  private:
+    StarField field_;
+    gl::Program program_;
+    gl::Mesh mesh_;
+    ToneUniforms tone_;
+    int clip_, viewport_, guard_, pixel_area_, point_gain_;
+};
+
+}  // namespace
+
+struct Renderer::Impl {
+    Impl(std::vector<Channel> channel_list, const DisplaySettings& display_settings)
+        : channels(std::move(channel_list)), display(display_settings) {
+        for (const Channel& channel : channels)
+            targets.emplace_back(channel.width_px, channel.height_px);
+        dome_mesh.set_indices(dome.indices());
+        dome_program.set(dome_program.uniform("u_dither_codes"), display.dither ? 1.0F : 0.0F);
+        dome_clip = dome_program.uniform("u_clip_from_mesh");
+        gl::set_common_state();
+    }
+
+    void adapt();
+    void refresh_dome();
+    void draw_smooth(const ChannelView& view, std::size_t channel);
+
+    std::vector<Channel> channels;
+    DisplaySettings display;
+    gl::DebugLog log;
+    std::vector<gl::Framebuffer> targets;
+    gl::Program dome_program{"sky/dome.vert", "sky/dome.frag"};
+    int dome_clip = -1;
+    Dome dome;
+    gl::Mesh dome_mesh{{3, 3}, dome.vertices().size()};
+    StarPass stars;
+    SunDisc sun_disc;
+    MoonDisc moon_disc;
+
+    LightTables tables;
+    eye::Adaptation adaptation;
+
+    // The frame in hand.
+    Scene scene;
+    SkyLight light;
+    shaders64::ToneParameters tone{};
+    double pixel_rad = 1e-3;
+    FrameReport report;
+
+    // What the dome's colours were made from.
+    struct Shaded {
+        std::uint64_t revision = 0;
+        double adaptation_cd_m2 = 0.0;
+        glm::vec3 sun_scale{-1.0F};
+        glm::vec3 moon_scale{-1.0F};
+        double moon_from_sun_rad = 0.0;
+        DomeLayout layout;
+    } shaded;
+    double zenith_cd_m2 = 0.0;
+};
+
+void Renderer::Impl::adapt() {
+    std::array<double, eye::kProbeCount> luminance{};
+    for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
+        const eye::ProbeDirection& probe = eye::probe_directions()[i];
+        luminance[i] = static_cast<double>(shaders32::luminance_709(
+            light.rgb_cd_m2(probe.elevation_rad, probe.azimuth_rad, Side::kByElevation)));
+    }
+    report.adaptation_cd_m2 =
+        adaptation.update(eye::adaptation_target_cd_m2(luminance), scene.time_s, display);
+    tone = eye::tone_parameters(display, report.adaptation_cd_m2);
+    constexpr double kZenith_rad = 1.5707;
+    zenith_cd_m2 =
+        static_cast<double>(shaders32::luminance_709(light.rgb_cd_m2(kZenith_rad, 0.0, Side::kSky)));
+}
+
+void Renderer::Impl::refresh_dome() {
+    const DomeLayout layout{light.horizon_elevation_rad, primary_elevation(light), pixel_rad};
+    const double moon_from_sun =
+        light.moon.view != nullptr ? light.moon.azimuth_rad - light.sun.azimuth_rad : 0.0;
+    const auto moved = [](const glm::vec3& a, const glm::vec3& b) {
+        return glm::any(glm::greaterThan(glm::abs(a - b), kLightStep * glm::max(a, b)));
+    };
+    const bool stale = shaded.revision != tables.revision() || shaded.layout != layout ||
+                       std::abs(report.adaptation_cd_m2 - shaded.adaptation_cd_m2) >
+                           kAdaptationStep * shaded.adaptation_cd_m2 ||
+                       moved(light.sun.scale_xyz, shaded.sun_scale) ||
+                       moved(light.moon.scale_xyz, shaded.moon_scale) ||
+                       std::abs(moon_from_sun - shaded.moon_from_sun_rad) > static_cast<double>(kLightStep);
+    if (!stale) return;
+    if (shaded.layout != layout || shaded.revision == 0) dome.lay_out(layout);
+    dome.shade(light, primary_azimuth(light), tone);
+    const auto vertices = dome.vertices();
+    dome_mesh.update(
+        {reinterpret_cast<const float*>(vertices.data()), vertices.size_bytes() / sizeof(float)});
+    shaded = {tables.revision(),    report.adaptation_cd_m2, light.sun.scale_xyz,
+              light.moon.scale_xyz, moon_from_sun,           layout};
+}
+
+Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display) {
+    if (channels.empty() || channels.size() > kMaxChannels) {
+        throw std::runtime_error("a renderer draws 1 to " + std::to_string(kMaxChannels) + " channels, not " +
+                                 std::to_string(channels.size()));
+    }
+    impl_ = std::make_unique<Impl>(std::move(channels), display);
+}
+
+Renderer::~Renderer() = default;
+
+const FrameReport& Renderer::prepare(const Scene& scene) {
+    Impl& m = *impl_;
+    m.scene = scene;
+    Held held = m.tables.held();
+    held.background_cd_m2 = m.zenith_cd_m2;
+    m.report.plan = make_plan(scene, held);
+    m.tables.update(scene, m.report.plan);
+    m.light = m.tables.light(scene, m.report.plan);
+
+    m.pixel_rad = 1.0;
+    for (std::size_t i = 0; i < m.channels.size() && i < scene.view_count; ++i) {
+        m.pixel_rad = std::min(m.pixel_rad, pixel_angle_rad(m.channels[i], scene.views[i].frustum));
+    }
+    m.adapt();
+    m.refresh_dome();
+
+    const auto tone32 = eye::single_precision(m.tone);
+    const Plan& plan = m.report.plan;
+    m.report.stars_drawn = 0;
+    if (plan.needs(Pass::kStars)) {
+        m.stars.prepare(scene, m.tables.air(), m.light, m.tone, plan.star_limit_mag);
+        m.report.stars_drawn = m.stars.count();
+    }
+    if (plan.needs(Pass::kSunDisc)) {
+        m.sun_disc.prepare(scene, m.tables.air(), m.light, m.pixel_rad, tone32, m.display.dither);
+    }
+    if (plan.needs(Pass::kMoonDisc)) {
+        m.moon_disc.prepare(scene, m.tables.air(), m.light, m.pixel_rad, tone32, m.display.dither);
+    }
+    m.report.gl_errors = m.log.errors();
+    return m.report;
+}
+
+void Renderer::draw(std::size_t channel) {
+    Impl& m = *impl_;
+    if (channel >= m.channels.size() || channel >= m.scene.view_count) return;
+    const ChannelView& view = m.scene.views[channel];
+    const Plan& plan = m.report.plan;
+    const glm::dmat4 clip_from_enu = clip_from_view(view.frustum, 1.0, 1.0) * glm::dmat4{view.view_from_enu};
+
+    m.targets[channel].bind();
+    gl::set_blend(gl::Blend::kReplace);
+    m.dome_program.use();
+    m.dome_program.set(m.dome_clip,
+                       glm::mat4{clip_from_enu * glm::dmat4{Dome::enu_from_mesh(primary_azimuth(m.light))}});
+    m.dome_mesh.draw_triangles();
+
+    if (plan.needs(Pass::kStars)) {
+        gl::set_blend(gl::Blend::kAdd);
+        m.targets[channel].bind(kStarGuard_px);
+        m.stars.draw(m.channels[channel], view);
+        m.targets[channel].bind();
+    }
+    gl::set_blend(gl::Blend::kCoverage);
+    if (plan.needs(Pass::kSunDisc)) m.sun_disc.draw(glm::mat4{clip_from_enu});
+    if (plan.needs(Pass::kMoonDisc)) m.moon_disc.draw(glm::mat4{clip_from_enu});
+    gl::finish();
+}
+
+void Renderer::read_back(std::size_t channel, std::span<std::byte> rgba) {
+    if (channel < impl_->targets.size()) impl_->targets[channel].read_rgba8(rgba);
+}
+
+std::span<const Channel> Renderer::channels() const noexcept {
+    return impl_->channels;
+}
+
+glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu) const {
+    const Horizontal at = horizontal_of(direction_enu);
+    const glm::vec3 rgb = impl_->light.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation);
+    return shaders64::shown(glm::dvec3{rgb}, impl_->tone);
+}
+
+}  // namespace skyig::render

@@ -1,0 +1,31 @@
+// Compiles the shared GLSL texts as C++: once in float (as the GPU computes), once in double (as tests
+// judge).
+#pragma once
+
+#include <glm/glm.hpp>
+
+#define SKYIG_CPP
+#define SKYIG_INLINE inline
+
+namespace skyig::render::shaders32 {
+using real = float;
+using rvec2 = glm::vec2;
+using rvec3 = glm::vec3;
+using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, glm::sqrt, glm::sin, glm::cos,
+    glm::tan, glm::dot, glm::length, glm::abs;
+#include "render/shaders/eye/tone.glsl"
+#include "render/shaders/night/moon.glsl"
+}  // namespace skyig::render::shaders32
+
+namespace skyig::render::shaders64 {
+using real = double;
+using rvec2 = glm::dvec2;
+using rvec3 = glm::dvec3;
+using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, glm::sqrt, glm::sin, glm::cos,
+    glm::tan, glm::dot, glm::length, glm::abs;
+#include "render/shaders/eye/tone.glsl"
+#include "render/shaders/night/moon.glsl"
+}  // namespace skyig::render::shaders64
+
+#undef SKYIG_CPP
+#undef SKYIG_INLINE
