@@ -1,0 +1,171 @@
+// The [[channel]] tables: each for itself, then against one another.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/schema.h"
+
+namespace skyig::config {
+namespace {
+
+/// Where the things stand that only a comparison can find wrong.
+struct ChannelPlaces {
+    Place name;
+    Place view_id;
+    Place offset;
+    bool named = false;
+};
+
+bool is_file_name_part(std::string_view name) {
+    return !name.empty() && name.size() <= 32 && std::all_of(name.begin(), name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+               c == '_';
+    });
+}
+
+void read_offset(TableReader& table, Channel& channel, ChannelPlaces& places) {
+    const Value* value = table.any("offset_m");
+    if (value == nullptr) return;
+    places.offset = value->place;
+    const auto* list = std::get_if<Array>(&value->data);
+    constexpr std::string_view kWanted = "it must be three numbers of metres: [forward, right, down]";
+    if (list == nullptr || list->items.size() != channel.offset_m.size()) {
+        table.error(*value, "offset_m", fmt::format("is {}; {}", type_name(*value), kWanted));
+        return;
+    }
+    for (std::size_t i = 0; i < channel.offset_m.size(); ++i) {
+        double read = 0.0;
+        if (!as_number(list->items[i], read) || std::abs(read) > 1000.0) {
+            table.error(list->items[i], "offset_m",
+                        fmt::format("holds what is not a number within 1000 m; {}", kWanted));
+            continue;
+        }
+        channel.offset_m[i] = read;
+    }
+}
+
+/// One pair of frustum sides: both are needed, and something has to lie between them.
+void read_sides(TableReader& table, std::string_view low_key, double& low_deg, std::string_view high_key,
+                double& high_deg) {
+    const Range range{-kMaxHalfAngle_deg, kMaxHalfAngle_deg, "degrees"};
+    const Value* low = table.number(low_key, low_deg, range);
+    const Value* high = table.number(high_key, high_deg, range);
+    table.require(low_key, "the signed half angle to that side in degrees");
+    table.require(high_key, "the signed half angle to that side in degrees");
+    if (low != nullptr && high != nullptr && low_deg >= high_deg) {
+        table.error(
+            *high, high_key,
+            fmt::format(
+                "is {}, not greater than {} = {}: such a channel has no area ({} is normally negative)",
+                high_deg, low_key, low_deg, low_key));
+    }
+}
+
+ChannelPlaces read_channel(TableReader& table, Channel& channel) {
+    ChannelPlaces places;
+    places.name = places.view_id = places.offset = table.place();
+    if (const Value* value = table.text("name", channel.name); value != nullptr) {
+        places.name = value->place;
+        places.named = is_file_name_part(channel.name);
+        if (!places.named) {
+            table.error(
+                *value, "name",
+                fmt::format("is \"{}\"; it must be 1..32 of letters, digits, '-' and '_' (it names files)",
+                            channel.name));
+        }
+    }
+    table.require("name", "a short text such as \"centre\"");
+    table.integer("width_px", channel.width_px, 1, kMaxChannelSize_px, "pixels");
+    table.integer("height_px", channel.height_px, 1, kMaxChannelSize_px, "pixels");
+    table.require("width_px", "the channel's width in pixels");
+    table.require("height_px", "the channel's height in pixels");
+    read_sides(table, "left_deg", channel.left_deg, "right_deg", channel.right_deg);
+    read_sides(table, "bottom_deg", channel.bottom_deg, "top_deg", channel.top_deg);
+    table.number("yaw_deg", channel.yaw_deg, {-360.0, 360.0, "degrees"});
+    table.number("pitch_deg", channel.pitch_deg, {-90.0, 90.0, "degrees"});
+    table.number("roll_deg", channel.roll_deg, {-180.0, 180.0, "degrees"});
+    read_offset(table, channel, places);
+    if (const Value* value = table.integer("view_id", channel.view_id, 0, 65535); value != nullptr) {
+        places.view_id = value->place;
+    }
+    table.integer("group_id", channel.group_id, 0, 255);
+    table.finish();
+    return places;
+}
+
+double distance_m(const Channel& a, const Channel& b) {
+    return std::hypot(a.offset_m[0] - b.offset_m[0], a.offset_m[1] - b.offset_m[1],
+                      a.offset_m[2] - b.offset_m[2]);
+}
+
+void compare(ErrorList& errors, const std::vector<Channel>& channels,
+             const std::vector<ChannelPlaces>& places) {
+    for (std::size_t j = 1; j < channels.size(); ++j) {
+        const Channel& channel = channels[j];
+        bool name_told = !places[j].named, view_told = false, spread_told = false;
+        for (std::size_t i = 0; i < j; ++i) {
+            const Channel& other = channels[i];
+            if (!name_told && channel.name == other.name) {
+                name_told = true;
+                errors.add(places[j].name, fmt::format("channel[{}].name", j + 1),
+                           fmt::format("is \"{}\" like that of channel[{}]; names must differ", channel.name,
+                                       i + 1));
+            }
+            if (!view_told && channel.view_id == other.view_id) {
+                view_told = true;
+                errors.add(
+                    places[j].view_id, fmt::format("channel[{}].view_id", j + 1),
+                    fmt::format(
+                        "is {} like that of channel[{}] (not given: the channel's place in the file); view "
+                        "ids must differ",
+                        channel.view_id, i + 1));
+            }
+            if (!spread_told && distance_m(channel, other) > kMaxEyeSpread_m) {
+                spread_told = true;
+                errors.add(
+                    places[j].offset, fmt::format("channel[{}].offset_m", j + 1),
+                    fmt::format(
+                        "is {:.4g} m from that of channel[{}]; all channels share one eye point, so at most "
+                        "{} m (run a daemon of its own for another place)",
+                        distance_m(channel, other), i + 1, kMaxEyeSpread_m));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+void read_channels(TableReader& root, ErrorList& errors, std::vector<Channel>& channels) {
+    const Value* value = root.any("channel");
+    if (value == nullptr) {
+        errors.add({}, "channel",
+                   "is missing; at least one [[channel]] with name, size and half angles is needed");
+        return;
+    }
+    const auto* list = std::get_if<Array>(&value->data);
+    if (list == nullptr || list->items.empty()) {
+        root.error(*value, "channel", "must be one or more tables: write [[channel]] in double brackets");
+        return;
+    }
+    if (list->items.size() > kMaxChannels) {
+        root.error(*value, "channel",
+                   fmt::format("is there {} times; at most {}", list->items.size(), kMaxChannels));
+        return;
+    }
+    std::vector<ChannelPlaces> places;
+    for (const Value& item : list->items) {
+        const std::size_t number = channels.size() + 1;
+        const auto* table = std::get_if<Table>(&item.data);
+        if (table == nullptr) {
+            root.error(item, "channel", fmt::format("holds {}; write [[channel]] tables", type_name(item)));
+        }
+        Channel& channel = channels.emplace_back();
+        channel.view_id = static_cast<int>(number);
+        TableReader reader(errors, table, item.place, fmt::format("channel[{}]", number));
+        places.push_back(table == nullptr ? ChannelPlaces{} : read_channel(reader, channel));
+    }
+    compare(errors, channels, places);
+}
+
+}  // namespace skyig::config

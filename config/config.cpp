@@ -1,0 +1,79 @@
+#include "config/config.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "config/document.h"
+#include "config/schema.h"
+
+namespace skyig::config {
+namespace {
+
+/// Nobody writes so much by hand; a mistaken path (a device, a recording) is told at once.
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 20U;
+
+LoadResult failed(const std::string& file, std::string message) {
+    return {std::nullopt, {{file, 0, 0, {}, std::move(message)}}};
+}
+
+std::string_view output_name(OutputKind kind) {
+    switch (kind) {
+        case OutputKind::kHeadless:
+            break;
+    }
+    return "headless";
+}
+
+}  // namespace
+
+LoadResult parse_config(std::string_view text, const std::string& file_name) {
+    Table root;
+    ConfigError syntax{file_name, 0, 0, {}, {}};
+    if (!parse_document(text, root, syntax)) return {std::nullopt, {std::move(syntax)}};
+    ErrorList errors(file_name);
+    LoadResult result;
+    Config config = read_config(root, errors);
+    if (errors.empty()) {
+        result.config = std::move(config);
+    } else {
+        result.errors = std::move(errors).sorted();
+    }
+    return result;
+}
+
+LoadResult load_config(const std::string& path) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+    if (!file) return failed(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
+    std::string text(kMaxFileBytes + 1, '\0');
+    const std::size_t size = std::fread(text.data(), 1, text.size(), file.get());
+    if (std::ferror(file.get()) != 0)
+        return failed(path, fmt::format("cannot be read: {}", std::strerror(errno)));
+    if (size > kMaxFileBytes) return failed(path, "is larger than 1 MiB: this is no configuration");
+    text.resize(size);
+    return parse_config(text, path);
+}
+
+Config default_config() {
+    Config config;
+    config.channels.emplace_back().name = "centre";
+    return config;
+}
+
+std::string to_text(const ConfigError& error) {
+    std::string text = error.file;
+    if (error.line > 0) text += fmt::format(":{}:{}", error.line, error.column);
+    if (!error.key.empty()) text += fmt::format(": {}", error.key);
+    return text + fmt::format(": {}", error.message);
+}
+
+std::string describe(const Config& config) {
+    const std::size_t count = config.channels.size();
+    return fmt::format("ok: {} channel{}, CIGI 3.3+4.0 on udp {}:{}, {}", count, count == 1 ? "" : "s",
+                       config.host.listen.address, config.host.listen.port, output_name(config.output.kind));
+}
+
+}  // namespace skyig::config

@@ -1,0 +1,222 @@
+#include "config/schema.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+
+namespace skyig::config {
+namespace {
+
+constexpr std::array<std::string_view, 2> kVersionNames{"3.3", "4.0"};
+constexpr std::array<CigiVersion, 2> kVersions{CigiVersion{3, 3}, CigiVersion{4, 0}};
+constexpr std::array<std::string_view, 2> kDatabaseNames{"accept", "none"};
+constexpr std::array<std::string_view, 2> kToneNames{"hybrid", "linear"};
+constexpr std::array<std::string_view, 1> kOutputNames{"headless"};
+
+/// The table of that name below the root; an error if the key holds something else.
+TableReader open_table(TableReader& root, ErrorList& errors, std::string_view name) {
+    const Value* value = root.any(name);
+    if (value == nullptr) return TableReader(errors, nullptr, {}, std::string(name));
+    const auto* table = std::get_if<Table>(&value->data);
+    if (table == nullptr) {
+        root.error(*value, name, fmt::format("is {}; it must be a table: [{}]", type_name(*value), name));
+    }
+    return TableReader(errors, table, value->place, std::string(name));
+}
+
+bool parse_udp_address(std::string_view text, UdpAddress& out) {
+    const std::size_t colon = text.rfind(':');
+    if (colon == std::string_view::npos || !is_ipv4(text.substr(0, colon))) return false;
+    const std::string_view digits = text.substr(colon + 1);
+    std::uint16_t port = 0;
+    const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+    if (fault != std::errc{} || end != digits.data() + digits.size()) return false;
+    out = {std::string(text.substr(0, colon)), port};
+    return true;
+}
+
+void read_version(TableReader& root) {
+    int version = 1;
+    const Value* value = root.integer("version", version, 0, 1'000'000);
+    if (value != nullptr && version != 1) {
+        root.error(*value, "version", fmt::format("is {}; this program reads version 1", version));
+    }
+    root.require("version", "1, the version of the file's layout (version = 1, above all tables)");
+}
+
+void read_daemon(TableReader table, Daemon& daemon) {
+    table.number("rate_hz", daemon.rate_hz, {1.0, 240.0, "Hz"});
+    table.finish();
+}
+
+void read_allowed(TableReader& table, std::vector<std::string>& allow) {
+    const Value* value = table.any("allow");
+    if (value == nullptr) return;
+    const auto* list = std::get_if<Array>(&value->data);
+    if (list == nullptr || list->items.empty()) {
+        table.error(*value, "allow", "must be a list of at least one IPv4 address, such as [\"127.0.0.1\"]");
+        return;
+    }
+    allow.clear();
+    for (const Value& item : list->items) {
+        const auto* text = std::get_if<std::string>(&item.data);
+        if (text == nullptr || !is_ipv4(*text)) {
+            const std::string read =
+                text == nullptr ? std::string(type_name(item)) : fmt::format("\"{}\"", *text);
+            table.error(item, "allow",
+                        fmt::format("holds {}; it must hold IPv4 addresses such as \"127.0.0.1\"", read));
+            continue;
+        }
+        allow.push_back(*text);
+    }
+}
+
+void read_host(TableReader table, Host& host) {
+    std::string text;
+    if (const Value* value = table.text("listen", text);
+        value != nullptr && !parse_udp_address(text, host.listen)) {
+        table.error(
+            *value, "listen",
+            fmt::format("is \"{}\"; it must be an IPv4 address and a port, such as \"127.0.0.1:8004\"",
+                        text));
+    }
+    if (const Value* value = table.text("reply_to", text); value != nullptr) {
+        UdpAddress address;
+        if (text == "sender") {
+            host.reply_to.reset();
+        } else if (parse_udp_address(text, address) && address.port != 0) {
+            host.reply_to = address;
+        } else {
+            table.error(
+                *value, "reply_to",
+                fmt::format("is \"{}\"; it must be \"sender\", or an IPv4 address and a port from 1, such as "
+                            "\"127.0.0.1:8005\"",
+                            text));
+        }
+    }
+    read_allowed(table, host.allow);
+    std::size_t index = 0;
+    if (table.choice("cigi", index, kVersionNames) != nullptr) host.cigi = kVersions[index];
+    if (table.choice("database", index, kDatabaseNames) != nullptr)
+        host.database = static_cast<DatabasePolicy>(index);
+    table.number("lost_after_s", host.lost_after_s, {0.1, 3600.0, "s"});
+    table.finish();
+}
+
+void read_utc(TableReader& table, std::optional<UtcDateTime>& utc) {
+    const Value* value = table.any("utc");
+    if (value == nullptr) return;
+    UtcDateTime time;
+    const auto* text = std::get_if<std::string>(&value->data);
+    if (text != nullptr && *text == "now") {
+        utc.reset();
+        return;
+    }
+    bool good = text != nullptr && parse_utc(*text, time);
+    if (const auto* date = std::get_if<UtcDateTime>(&value->data)) {
+        time = *date;
+        good = is_valid(time);
+    }
+    if (!good) {
+        const std::string read =
+            text == nullptr ? std::string(type_name(*value)) : fmt::format("\"{}\"", *text);
+        table.error(
+            *value, "utc",
+            fmt::format(
+                "is {}; it must be \"now\" or UTC with a Z, years 1900..2100, such as 2026-06-21T12:00:00Z",
+                std::holds_alternative<UtcDateTime>(value->data) ? "out of range" : read));
+        return;
+    }
+    utc = time;
+}
+
+void read_start(TableReader table, Start& start) {
+    read_utc(table, start.utc);
+    table.boolean("running", start.running);
+    table.number("latitude_deg", start.latitude_deg, {-90.0, 90.0, "degrees"});
+    table.number("longitude_deg", start.longitude_deg, {-180.0, 180.0, "degrees"});
+    table.number("height_m", start.height_m, {-500.0, 100'000.0, "m"});
+    table.number("yaw_deg", start.yaw_deg, {-360.0, 360.0, "degrees"});
+    table.number("pitch_deg", start.pitch_deg, {-90.0, 90.0, "degrees"});
+    table.number("roll_deg", start.roll_deg, {-180.0, 180.0, "degrees"});
+    table.finish();
+}
+
+void read_air(TableReader table, Air& air) {
+    table.number("visibility_m", air.visibility_m, {10.0, 400'000.0, "m"});
+    table.number("visibility_contrast", air.visibility_contrast, {0.01, 0.1, {}});
+    table.number("temperature_c", air.temperature_c, {-90.0, 60.0, "degrees Celsius"});
+    table.number("pressure_hpa", air.pressure_hpa, {800.0, 1100.0, "hPa"});
+    table.number("humidity_pct", air.humidity_pct, {0.0, 100.0, "%"});
+    table.finish();
+}
+
+void read_sky(TableReader table, Sky& sky) {
+    table.boolean("sun", sky.sun);
+    table.boolean("moon", sky.moon);
+    table.boolean("stars", sky.stars);
+    table.number("star_intensity_pct", sky.star_intensity_pct, {0.0, 100.0, "%"});
+    table.finish();
+}
+
+void read_gamma(TableReader& table, std::optional<double>& gamma) {
+    const Value* value = table.any("gamma");
+    if (value == nullptr) return;
+    const auto* text = std::get_if<std::string>(&value->data);
+    double number = 0.0;
+    if (text != nullptr && *text == "srgb") {
+        gamma.reset();
+    } else if (as_number(*value, number) && number >= 1.0 && number <= 3.0) {
+        gamma = number;
+    } else {
+        const std::string read = text != nullptr             ? fmt::format("\"{}\"", *text)
+                                 : as_number(*value, number) ? fmt::format("{}", number)
+                                                             : std::string(type_name(*value));
+        table.error(*value, "gamma", fmt::format("is {}; it must be \"srgb\" or a number 1..3", read));
+    }
+}
+
+void read_display(TableReader table, Display& display) {
+    table.number("max_luminance_cd_m2", display.max_luminance_cd_m2, {1.0, 10'000.0, "cd/m2"});
+    display.adaptation_cd_m2 = 0.5 * display.max_luminance_cd_m2;
+    table.number("adaptation_cd_m2", display.adaptation_cd_m2, {0.1, 10'000.0, "cd/m2"});
+    read_gamma(table, display.gamma);
+    table.boolean("dither", display.dither);
+    table.finish();
+}
+
+void read_eye(TableReader table, Eye& eye) {
+    std::size_t index = 0;
+    if (table.choice("operator", index, kToneNames) != nullptr) eye.tone = static_cast<ToneOperator>(index);
+    table.number("adapt_up_s", eye.adapt_up_s, {0.0, 600.0, "s"});
+    table.number("adapt_down_s", eye.adapt_down_s, {0.0, 600.0, "s"});
+    table.finish();
+}
+
+void read_output(TableReader table, Output& output) {
+    std::size_t index = 0;
+    if (table.choice("kind", index, kOutputNames) != nullptr) output.kind = static_cast<OutputKind>(index);
+    table.finish();
+}
+
+}  // namespace
+
+Config read_config(const Table& document, ErrorList& errors) {
+    Config config;
+    TableReader root(errors, &document, {}, {});
+    read_version(root);
+    read_daemon(open_table(root, errors, "daemon"), config.daemon);
+    read_host(open_table(root, errors, "host"), config.host);
+    read_start(open_table(root, errors, "start"), config.start);
+    read_air(open_table(root, errors, "air"), config.air);
+    read_sky(open_table(root, errors, "sky"), config.sky);
+    read_display(open_table(root, errors, "display"), config.display);
+    read_eye(open_table(root, errors, "eye"), config.eye);
+    read_output(open_table(root, errors, "output"), config.output);
+    read_channels(root, errors, config.channels);
+    root.finish();
+    return config;
+}
+
+}  // namespace skyig::config

@@ -1,0 +1,22 @@
+// Which tables and keys a configuration has, with their ranges: the one home of that knowledge.
+#pragma once
+
+#include "config/config.h"
+#include "config/table_reader.h"
+
+namespace skyig::config {
+
+/// Reads a whole document; whatever is wrong goes to `errors` and leaves its default in the result.
+[[nodiscard]] Config read_config(const Table& root, ErrorList& errors);
+
+/// Reads the [[channel]] tables and checks them against one another.
+void read_channels(TableReader& root, ErrorList& errors, std::vector<Channel>& channels);
+
+/// "127.0.0.1": four decimal numbers 0..255 without leading zeros.
+[[nodiscard]] bool is_ipv4(std::string_view text) noexcept;
+
+/// "2026-06-21T19:30:00Z", seconds optional; false if it has another shape or is no date of years 1900..2100.
+[[nodiscard]] bool parse_utc(std::string_view text, UtcDateTime& out) noexcept;
+[[nodiscard]] bool is_valid(const UtcDateTime& time) noexcept;
+
+}  // namespace skyig::config

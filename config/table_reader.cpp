@@ -1,0 +1,185 @@
+#include "config/table_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/nearest.h"
+
+namespace skyig::config {
+namespace {
+
+std::string list_of(std::span<const std::string_view> names) {
+    std::string list;
+    for (const std::string_view name : names) {
+        if (!list.empty()) list += ", ";
+        list += fmt::format("\"{}\"", name);
+    }
+    return list;
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string_view> candidates) {
+    const std::string_view near = nearest(word, candidates);
+    return near.empty() ? std::string() : fmt::format("; did you mean \"{}\"?", near);
+}
+
+}  // namespace
+
+void ErrorList::add(const Place& place, std::string key, std::string message) {
+    errors_.push_back({file_, place.line, place.column, std::move(key), std::move(message)});
+}
+
+std::vector<ConfigError> ErrorList::sorted() && {
+    std::stable_sort(errors_.begin(), errors_.end(), [](const ConfigError& a, const ConfigError& b) {
+        return a.line != b.line ? a.line < b.line : a.column < b.column;
+    });
+    return std::move(errors_);
+}
+
+std::string_view type_name(const Value& value) noexcept {
+    struct Names {
+        std::string_view operator()(bool) const { return "a truth value"; }
+        std::string_view operator()(std::int64_t) const { return "a whole number"; }
+        std::string_view operator()(double) const { return "a number"; }
+        std::string_view operator()(const std::string&) const { return "text"; }
+        std::string_view operator()(const UtcDateTime&) const { return "a date and time"; }
+        std::string_view operator()(const OtherDate&) const { return "a date or time that is not UTC"; }
+        std::string_view operator()(const Array&) const { return "a list"; }
+        std::string_view operator()(const Table&) const { return "a table"; }
+    };
+    return std::visit(Names{}, value.data);
+}
+
+bool as_number(const Value& value, double& out) noexcept {
+    if (const auto* integer = std::get_if<std::int64_t>(&value.data)) {
+        out = static_cast<double>(*integer);
+        return true;
+    }
+    const auto* number = std::get_if<double>(&value.data);
+    if (number == nullptr || !std::isfinite(*number)) return false;
+    out = *number;
+    return true;
+}
+
+std::string to_text(const Range& range) {
+    const std::string_view gap = range.unit.empty() ? "" : " ";
+    const bool has_max = range.max < std::numeric_limits<double>::max();
+    const bool has_min = range.min > -std::numeric_limits<double>::max();
+    if (!has_max && !has_min) return fmt::format("a finite number{}{}", gap, range.unit);
+    if (!has_max)
+        return fmt::format("{} {}{}{}", range.above_min ? "above" : "at least", range.min, gap, range.unit);
+    if (range.above_min) return fmt::format("above {} up to {}{}{}", range.min, range.max, gap, range.unit);
+    return fmt::format("{}..{}{}{}", range.min, range.max, gap, range.unit);
+}
+
+TableReader::TableReader(ErrorList& errors, const Table* table, const Place& place, std::string path)
+    : errors_(errors), table_(table), place_(place), path_(std::move(path)) {}
+
+std::string TableReader::key_path(std::string_view key) const {
+    return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+}
+
+void TableReader::error(const Value& at, std::string_view key, std::string message) {
+    errors_.add(at.place, key_path(key), std::move(message));
+}
+
+const Value* TableReader::any(std::string_view key) {
+    known_.push_back(key);
+    return table_ == nullptr ? nullptr : table_->find(key);
+}
+
+const Value* TableReader::number(std::string_view key, double& out, const Range& range) {
+    const Value* value = any(key);
+    if (value == nullptr) return nullptr;
+    double read = 0.0;
+    if (!as_number(*value, read)) {
+        const bool is_float = std::holds_alternative<double>(value->data);
+        error(*value, key,
+              fmt::format("is {}; it must be a number, {}", is_float ? "not finite" : type_name(*value),
+                          to_text(range)));
+        return nullptr;
+    }
+    if (read < range.min || read > range.max || (range.above_min && read <= range.min)) {
+        error(*value, key, fmt::format("is {}; it must be {}", read, to_text(range)));
+        return nullptr;
+    }
+    out = read;
+    return value;
+}
+
+const Value* TableReader::integer(std::string_view key, int& out, int min, int max, std::string_view unit) {
+    const Value* value = any(key);
+    if (value == nullptr) return nullptr;
+    const std::string_view gap = unit.empty() ? "" : " ";
+    const auto* read = std::get_if<std::int64_t>(&value->data);
+    if (read == nullptr) {
+        error(*value, key,
+              fmt::format("is {}; it must be a whole number, {}..{}{}{}", type_name(*value), min, max, gap,
+                          unit));
+        return nullptr;
+    }
+    if (*read < min || *read > max) {
+        error(*value, key, fmt::format("is {}; it must be {}..{}{}{}", *read, min, max, gap, unit));
+        return nullptr;
+    }
+    out = static_cast<int>(*read);
+    return value;
+}
+
+const Value* TableReader::boolean(std::string_view key, bool& out) {
+    const Value* value = any(key);
+    if (value == nullptr) return nullptr;
+    const auto* read = std::get_if<bool>(&value->data);
+    if (read == nullptr) {
+        error(*value, key, fmt::format("is {}; it must be true or false", type_name(*value)));
+        return nullptr;
+    }
+    out = *read;
+    return value;
+}
+
+const Value* TableReader::text(std::string_view key, std::string& out) {
+    const Value* value = any(key);
+    if (value == nullptr) return nullptr;
+    const auto* read = std::get_if<std::string>(&value->data);
+    if (read == nullptr) {
+        error(*value, key, fmt::format("is {}; it must be text in quotes", type_name(*value)));
+        return nullptr;
+    }
+    out = *read;
+    return value;
+}
+
+const Value* TableReader::choice(std::string_view key, std::size_t& out,
+                                 std::span<const std::string_view> names) {
+    std::string read;
+    const Value* value = text(key, read);
+    if (value == nullptr) return nullptr;
+    const auto found = std::find(names.begin(), names.end(), read);
+    if (found == names.end()) {
+        error(*value, key,
+              fmt::format("is \"{}\"; it must be {}{}{}", read, names.size() > 1 ? "one of " : "",
+                          list_of(names), suggestion(read, names)));
+        return nullptr;
+    }
+    out = static_cast<std::size_t>(found - names.begin());
+    return value;
+}
+
+void TableReader::require(std::string_view key, std::string_view wanted) {
+    if (table_ != nullptr && table_->find(key) != nullptr) return;
+    errors_.add(place_, key_path(key), fmt::format("is missing; it must be {}", wanted));
+}
+
+void TableReader::finish() {
+    if (table_ == nullptr) return;
+    for (const Value& value : table_->entries) {
+        if (std::find(known_.begin(), known_.end(), value.key) != known_.end()) continue;
+        std::string hint = suggestion(value.key, known_);
+        if (hint.empty()) hint = fmt::format("; keys here: {}", list_of(known_));
+        errors_.add(value.key_place, key_path(value.key), fmt::format("unknown key{}", hint));
+    }
+}
+
+}  // namespace skyig::config

@@ -1,0 +1,80 @@
+// Reads the keys of one table into plain values and notes everything that is wrong with them. The keys that
+// were asked for are the keys that exist: finish() reports all others with the nearest right one.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/document.h"
+
+namespace skyig::config {
+
+class ErrorList {
+  public:
+    explicit ErrorList(std::string file) : file_(std::move(file)) {}
+
+    void add(const Place& place, std::string key, std::string message);
+    /// In the order of the text.
+    [[nodiscard]] std::vector<ConfigError> sorted() &&;
+    [[nodiscard]] bool empty() const noexcept { return errors_.empty(); }
+
+  private:
+    std::string file_;
+    std::vector<ConfigError> errors_;
+};
+
+/// Both ends are allowed unless `above_min`.
+struct Range {
+    double min = -std::numeric_limits<double>::max();
+    double max = std::numeric_limits<double>::max();
+    /// Said in errors: "degrees", "m", "" for none.
+    std::string_view unit;
+    bool above_min = false;
+};
+
+class TableReader {
+  public:
+    /// `table` null: the table is absent, every key keeps its default. `path` is its dotted name, empty for
+    /// the root.
+    TableReader(ErrorList& errors, const Table* table, const Place& place, std::string path);
+
+    /// Each returns the value's node when the key is there and right and `out` was set, else null; `out` then
+    /// keeps its default.
+    const Value* number(std::string_view key, double& out, const Range& range);
+    const Value* integer(std::string_view key, int& out, int min, int max, std::string_view unit = {});
+    const Value* boolean(std::string_view key, bool& out);
+    const Value* text(std::string_view key, std::string& out);
+    /// One of `names`; `out` becomes its index.
+    const Value* choice(std::string_view key, std::size_t& out, std::span<const std::string_view> names);
+    /// Any value at all, for keys that may hold several types.
+    const Value* any(std::string_view key);
+
+    /// The key must be there; otherwise an error at the table, saying `wanted`.
+    void require(std::string_view key, std::string_view wanted);
+    /// Reports keys that nobody asked for.
+    void finish();
+
+    void error(const Value& at, std::string_view key, std::string message);
+    [[nodiscard]] std::string key_path(std::string_view key) const;
+    [[nodiscard]] const Place& place() const noexcept { return place_; }
+
+  private:
+    ErrorList& errors_;
+    const Table* table_;
+    Place place_;
+    std::string path_;
+    std::vector<std::string_view> known_;
+};
+
+/// "a number", "text", ... for errors.
+[[nodiscard]] std::string_view type_name(const Value& value) noexcept;
+/// Integers count as numbers; null result for anything else or not finite.
+[[nodiscard]] bool as_number(const Value& value, double& out) noexcept;
+/// "1..240 Hz"
+[[nodiscard]] std::string to_text(const Range& range);
+
+}  // namespace skyig::config
