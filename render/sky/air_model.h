@@ -19,7 +19,7 @@ inline constexpr double kWavelengthStepNm = 21.0;
 /// Density relative to that at height 0, log-linear between knots of rising height (the first at 0); the last
 /// slope goes on above the last knot. Two knots make one exponential.
 struct DensityProfile {
-    static constexpr std::size_t kMaxKnots = 24;
+    static constexpr std::size_t kMaxKnots = 28;
     std::size_t knot_count = 0;
     std::array<double, kMaxKnots> height_m{};
     std::array<double, kMaxKnots> log_density{};

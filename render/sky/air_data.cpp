@@ -1,0 +1,149 @@
+#include "render/sky/air_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/sky/phase.h"
+#include "render/sky/quadrature.h"
+
+namespace skyig::render::sky {
+namespace {
+
+double log_density(const DensityProfile& profile, double height_m) {
+    std::size_t k = 0;
+    while (k + 2 < profile.knot_count && height_m > profile.height_m[k + 1])
+        ++k;
+    const double part = (height_m - profile.height_m[k]) / (profile.height_m[k + 1] - profile.height_m[k]);
+    return profile.log_density[k] + part * (profile.log_density[k + 1] - profile.log_density[k]);
+}
+
+double ozone_density(const AirModel& model, double height_m) {
+    const double up = (height_m - model.ozone_bottom_m) / (model.ozone_peak_m - model.ozone_bottom_m);
+    const double down = (model.ozone_top_m - height_m) / (model.ozone_top_m - model.ozone_peak_m);
+    return std::clamp(std::min(up, down), 0.0, 1.0);
+}
+
+// Half of 5 times the phase function's mean against P2: the moment chi_2.
+double second_moment(double g) {
+    static const auto rule = gauss_legendre<64>();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < rule.node.size(); ++i) {
+        const double c = rule.node[i];
+        sum += rule.weight[i] * cornette_shanks_phase(g, c) * (1.5 * c * c - 0.5);
+    }
+    return 2.0 * std::numbers::pi * sum;
+}
+
+Lanes lanes_of(const Spectrum& spectrum) {
+    Lanes lanes{};
+    std::copy(spectrum.begin(), spectrum.end(), lanes.v);
+    return lanes;
+}
+
+struct ColumnSum {
+    double molecules_m = 0.0;
+    double aerosol_m = 0.0;
+    double ozone_m = 0.0;
+};
+
+// From `height_m` along `cosine` >= 0 for `length_m`; nodes crowd where the air is densest, at the start.
+void add_columns(const AirData& data, double height_m, double cosine, double length_m, ColumnSum& sum) {
+    static const auto rule = gauss_legendre<40>();
+    for (std::size_t i = 0; i < rule.node.size(); ++i) {
+        const double s = 0.5 + 0.5 * rule.node[i];
+        const double weight_m = rule.weight[i] * s * length_m;
+        const Densities d = data.densities(data.shell.height_along_m(height_m, cosine, length_m * s * s));
+        sum.molecules_m += weight_m * static_cast<double>(d.molecules);
+        sum.aerosol_m += weight_m * static_cast<double>(d.aerosol);
+        sum.ozone_m += weight_m * static_cast<double>(d.ozone);
+    }
+}
+
+ColumnSum columns_to_top(const AirData& data, double height_m, double cosine) {
+    ColumnSum sum;
+    if (cosine >= 0.0) {
+        add_columns(data, height_m, cosine, data.shell.distance_to_top_m(height_m, cosine), sum);
+        return sum;
+    }
+    const double low_m = -(data.shell.ground_radius_m + height_m) * cosine;
+    const double low_height_m = std::max(0.0, data.shell.height_along_m(height_m, cosine, low_m));
+    add_columns(data, low_height_m, 0.0, low_m, sum);
+    add_columns(data, low_height_m, 0.0, data.shell.distance_to_top_m(low_height_m, 0.0), sum);
+    return sum;
+}
+
+}  // namespace
+
+Densities AirData::densities(double height_m) const noexcept {
+    const double position = std::clamp(height_m / shell.top_height_m, 0.0, 1.0) * kProfileCells;
+    const auto cell = std::min(static_cast<std::size_t>(position), std::size_t{kProfileCells - 1});
+    const auto part = static_cast<float>(position - static_cast<double>(cell));
+    Densities d;
+    d.molecules = std::exp(log_molecules[cell] + part * (log_molecules[cell + 1] - log_molecules[cell]));
+    d.aerosol = static_cast<float>(std::exp(-height_m / model.aerosol_scale_height_m));
+    d.ozone = static_cast<float>(ozone_density(model, height_m));
+    return d;
+}
+
+double AirData::column_row(double height_m) const noexcept {
+    return std::sqrt(std::clamp(height_m / shell.top_height_m, 0.0, 1.0)) * (kColumnRows - 1);
+}
+
+double AirData::moment_row(double height_m) const noexcept {
+    return std::sqrt(std::clamp(height_m / shell.top_height_m, 0.0, 1.0)) * (kMomentRows - 1);
+}
+
+double AirData::moment_row_height_m(int row) const noexcept {
+    const double part = static_cast<double>(row) / (kMomentRows - 1);
+    return shell.top_height_m * part * part;
+}
+
+double moment_sine(int node) noexcept {
+    if (node < kNightNodes) {
+        const double root = 1.0 - static_cast<double>(node) / kNightNodes;
+        return -static_cast<double>(kLowestSine) * root * root;
+    }
+    const double root = static_cast<double>(node - kNightNodes) / kDayNodes;
+    return root * root;
+}
+
+void build_medium(const AirModel& model, AirData& data) {
+    data.model = model;
+    data.shell = {model.ground_radius_m, model.top_height_m};
+    data.medium.rayleigh = lanes_of(model.rayleigh_per_m);
+    data.medium.aerosol_extinction = lanes_of(model.aerosol_extinction_per_m);
+    data.medium.aerosol_scattering = lanes_of(model.aerosol_scattering_per_m);
+    data.medium.ozone = lanes_of(model.ozone_peak_per_m);
+    data.medium.albedo_over_pi = lanes_of(model.ground_albedo);
+    for (float& albedo : data.medium.albedo_over_pi.v)
+        albedo *= std::numbers::inv_pi_v<float>;
+    data.medium.chi_1 = static_cast<float>(cornette_shanks_mean_cosine(model.aerosol_g));
+    data.medium.chi_2 = static_cast<float>(second_moment(model.aerosol_g));
+    data.log_molecules.resize(kProfileCells + 1);
+    for (std::size_t i = 0; i <= kProfileCells; ++i) {
+        data.log_molecules[i] = static_cast<float>(
+            log_density(model.molecules, model.top_height_m * static_cast<double>(i) / kProfileCells));
+    }
+}
+
+void build_columns(AirData& data) {
+    constexpr double kLeastColumnM = 1e-3;  // keeps the logarithm finite where a constituent has ended
+    data.columns.assign(std::size_t{kColumnRows} * kColumnAngles * 4, 0.0F);
+    float* out = data.columns.data();
+    for (int row = 0; row < kColumnRows; ++row) {
+        const double part = static_cast<double>(row) / (kColumnRows - 1);
+        const double height_m = data.shell.top_height_m * part * part;
+        const double dip_sine = data.shell.dip_sine(height_m);
+        for (int angle = 0; angle < kColumnAngles; ++angle, out += 4) {
+            const double place = static_cast<double>(angle) / (kColumnAngles - 1);
+            const double cosine = std::min(1.0, (1.0 + dip_sine) * place * place - dip_sine);
+            const ColumnSum sum = columns_to_top(data, height_m, cosine);
+            out[0] = static_cast<float>(std::log(std::max(sum.molecules_m, kLeastColumnM)));
+            out[1] = static_cast<float>(std::log(std::max(sum.aerosol_m, kLeastColumnM)));
+            out[2] = static_cast<float>(std::log(std::max(sum.ozone_m, kLeastColumnM)));
+        }
+    }
+}
+
+}  // namespace skyig::render::sky

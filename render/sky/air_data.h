@@ -1,0 +1,56 @@
+// The tables behind AirTables, shared by the files of this folder.
+#pragma once
+
+#include <vector>
+
+#include "render/sky/air_model.h"
+#include "render/sky/geometry.h"
+#include "render/sky/kernels.h"
+
+namespace skyig::render::sky {
+
+struct Densities {
+    float molecules = 0.0F;
+    float aerosol = 0.0F;
+    float ozone = 0.0F;
+};
+
+/// Node counts of the tables and quadrature of their building.
+inline constexpr int kColumnRows = 64;
+inline constexpr int kColumnAngles = 128;
+inline constexpr int kMomentRows = 16;
+inline constexpr int kProfileCells = 480;
+
+struct AirData {
+    AirModel model;
+    Shell shell;
+    Medium medium{};
+    /// ln density of the molecules at even heights: cheaper than a search for the knot.
+    std::vector<float> log_molecules;
+    std::vector<float> columns;
+    std::vector<float> moments;
+    std::vector<float> log_ground;
+
+    [[nodiscard]] Densities densities(double height_m) const noexcept;
+    [[nodiscard]] ColumnTable column_table() const noexcept {
+        return {columns.data(), kColumnRows, kColumnAngles};
+    }
+    [[nodiscard]] MomentTable moment_table() const noexcept {
+        return {moments.data(), log_ground.data(), kMomentRows, kSineNodes};
+    }
+    /// Places in the tables, in nodes.
+    [[nodiscard]] double column_row(double height_m) const noexcept;
+    [[nodiscard]] double moment_row(double height_m) const noexcept;
+    [[nodiscard]] double moment_row_height_m(int row) const noexcept;
+};
+
+/// Sine of the source's elevation at a node of the moment table.
+[[nodiscard]] double moment_sine(int node) noexcept;
+
+/// Everything but the moments.
+void build_medium(const AirModel& model, AirData& data);
+void build_columns(AirData& data);
+/// Needs the rest.
+void build_moments(AirData& data);
+
+}  // namespace skyig::render::sky

@@ -1,0 +1,16 @@
+#include "render/sky/kernels.h"
+
+namespace skyig::render::sky {
+
+const Kernels& kernels() noexcept {
+#ifdef SKYIG_SKY_X86_64
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl")) {
+        return avx512::kernels();
+    }
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return avx2::kernels();
+#endif
+    return portable::kernels();
+}
+
+}  // namespace skyig::render::sky

@@ -1,0 +1,5 @@
+#define SKYIG_SKY_ISA portable
+#define SKYIG_SKY_ISA_NAME "portable"
+
+#include "render/sky/kernels.h"
+#include "render/sky/kernels_body.inc"

@@ -1,0 +1,126 @@
+#include "render/sky/path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skyig::render::sky {
+namespace {
+
+struct Ray {
+    const AirData& data;
+    double eye_height_m;
+    double cosine;
+
+    [[nodiscard]] double height_m(double along_m) const noexcept {
+        return std::clamp(data.shell.height_along_m(eye_height_m, cosine, along_m), 0.0,
+                          data.shell.top_height_m);
+    }
+};
+
+double depth_per_m(const AirData& data, const Densities& d) {
+    constexpr int kGreen = 8;
+    return static_cast<double>(data.medium.rayleigh.v[kGreen] * d.molecules +
+                               data.medium.aerosol_extinction.v[kGreen] * d.aerosol +
+                               data.medium.ozone.v[kGreen] * d.ozone);
+}
+
+float simpson(float a, float middle, float b) {
+    return (a + 4.0F * middle + b) * (1.0F / 6.0F);
+}
+
+// The step's optics are means over it (Simpson); its light is gathered at its centre of optical mass.
+void fill_step(const Ray& ray, double from_m, double to_m, const Densities& from, const Densities& to,
+               PathStep& step) {
+    const double middle_m = 0.5 * (from_m + to_m);
+    const Densities middle = ray.data.densities(ray.height_m(middle_m));
+    step.length_m = static_cast<float>(to_m - from_m);
+    step.molecules = simpson(from.molecules, middle.molecules, to.molecules);
+    step.aerosol = simpson(from.aerosol, middle.aerosol, to.aerosol);
+    step.ozone = simpson(from.ozone, middle.ozone, to.ozone);
+
+    const double mass_from = depth_per_m(ray.data, from);
+    const double mass_middle = 4.0 * depth_per_m(ray.data, middle);
+    const double mass_to = depth_per_m(ray.data, to);
+    const double mass = mass_from + mass_middle + mass_to;
+    const double along_m =
+        mass > 0.0 ? (mass_from * from_m + mass_middle * middle_m + mass_to * to_m) / mass : middle_m;
+
+    const double height_m = ray.height_m(along_m);
+    const double eye_radius_m = ray.data.shell.ground_radius_m + ray.eye_height_m;
+    const double radius_m = ray.data.shell.ground_radius_m + height_m;
+    step.eye_part = eye_radius_m / radius_m;
+    step.along_part = along_m / radius_m;
+    step.view_sine =
+        static_cast<float>(std::clamp((eye_radius_m * ray.cosine + along_m) / radius_m, -1.0, 1.0));
+    step.column_row = static_cast<float>(ray.data.column_row(height_m));
+    step.moment_row = static_cast<float>(ray.data.moment_row(height_m));
+    step.dip_sine = static_cast<float>(ray.data.shell.dip_sine(height_m));
+    step.dip_cosine = static_cast<float>(ray.data.shell.dip_cosine(height_m));
+}
+
+// Steps between two distances, `low_m` being the end at the lower height: they crowd there, quadratically.
+void add_steps(const Ray& ray, double low_m, double high_m, int count, Path& path) {
+    const bool rising = high_m >= low_m;
+    const auto boundary_m = [&](int i) {
+        const double s = static_cast<double>(rising ? i : count - i) / count;
+        return low_m + (high_m - low_m) * s * s;
+    };
+    double from_m = boundary_m(0);
+    Densities from = ray.data.densities(ray.height_m(from_m));
+    for (int i = 0; i < count; ++i) {
+        const double to_m = boundary_m(i + 1);
+        const Densities to = ray.data.densities(ray.height_m(to_m));
+        fill_step(ray, from_m, to_m, from, to, path.steps[path.count++]);
+        from_m = to_m;
+        from = to;
+    }
+}
+
+// Where the ray is inside the shell, as if the ground were glass; false when it misses.
+bool inside_shell(const Shell& shell, double eye_height_m, double cosine, double& enter_m, double& leave_m) {
+    if (eye_height_m <= shell.top_height_m) {
+        enter_m = 0.0;
+        leave_m = shell.distance_to_top_m(eye_height_m, cosine);
+        return leave_m > 0.0;
+    }
+    const double r = shell.ground_radius_m + eye_height_m;
+    const double excess = (eye_height_m - shell.top_height_m) *
+                          (2.0 * shell.ground_radius_m + shell.top_height_m + eye_height_m);
+    const double root2 = r * r * cosine * cosine - excess;
+    if (cosine >= 0.0 || root2 <= 0.0) return false;
+    leave_m = -r * cosine + std::sqrt(root2);
+    enter_m = excess / leave_m;
+    return true;
+}
+
+}  // namespace
+
+void lay_path(const AirData& data, double eye_height_m, double cosine, Side side, int steps_wanted,
+              Path& path) {
+    path.count = 0;
+    path.meets_ground = side == Side::kGround;
+    const Ray ray{data, eye_height_m, cosine};
+    double enter_m = 0.0;
+    double leave_m = 0.0;
+    const bool inside = inside_shell(data.shell, eye_height_m, cosine, enter_m, leave_m);
+    const double eye_radius_m = data.shell.ground_radius_m + eye_height_m;
+    if (side == Side::kGround) {
+        const double ground_m = data.shell.distance_to_ground_m(eye_height_m, cosine);
+        path.ground_eye_part = eye_radius_m / data.shell.ground_radius_m;
+        path.ground_along_part = ground_m / data.shell.ground_radius_m;
+        if (ground_m > enter_m) add_steps(ray, ground_m, enter_m, steps_wanted, path);
+        return;
+    }
+    if (!inside) return;
+    const double low_m = std::max(enter_m, -eye_radius_m * cosine);
+    if (low_m <= enter_m) {
+        add_steps(ray, enter_m, leave_m, steps_wanted, path);
+        return;
+    }
+    const double share = std::sqrt((low_m - enter_m) / (leave_m - enter_m));
+    const int before = std::clamp(static_cast<int>(share * steps_wanted * 0.7), 2, steps_wanted - 2);
+    add_steps(ray, low_m, enter_m, before, path);
+    add_steps(ray, low_m, leave_m, steps_wanted - before, path);
+}
+
+}  // namespace skyig::render::sky

@@ -1,0 +1,317 @@
+#include "render/sky/sky_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "render/sky/path.h"
+#include "render/sky/phase.h"
+
+namespace skyig::render::sky {
+namespace {
+
+constexpr double kHalfPi = 0.5 * std::numbers::pi;
+constexpr double kLowestEyeM = 0.01;
+
+// X, Y, Z of everything but aerosol single scattering, then of that without its phase function: the aureole
+// is put together at look-up, so the nodes need not resolve it.
+using Node = std::array<float, 8>;
+
+// Rows over the angle from the horizon: angle = scale (cosh(growth w) - 1), w in 0..1. Quadratic at the
+// horizon, where ground distances go with the root of the angle, and a geometric progression further away.
+struct RowMap {
+    double range_rad = 1.0;
+    double scale_rad = 1.0;
+    double growth = 1.0;
+
+    static RowMap over(double range_rad, double scale_rad) {
+        const double ratio = range_rad / scale_rad;
+        return {range_rad, scale_rad, std::log1p(ratio + std::sqrt(ratio * (2.0 + ratio)))};
+    }
+    [[nodiscard]] double angle_rad(double w) const noexcept {
+        const double half = std::sinh(0.5 * growth * w);
+        return std::min(range_rad, 2.0 * scale_rad * half * half);
+    }
+    [[nodiscard]] float w(float angle_rad) const noexcept {
+        const float y = angle_rad / static_cast<float>(scale_rad);
+        return std::log1p(y + std::sqrt(y * (2.0F + y))) / static_cast<float>(growth);
+    }
+};
+
+std::array<float, 4> catmull_rom(float t) {
+    const float t2 = t * t;
+    const float t3 = t2 * t;
+    return {0.5F * (2.0F * t2 - t - t3), 0.5F * (2.0F - 5.0F * t2 + 3.0F * t3),
+            0.5F * (t + 4.0F * t2 - 3.0F * t3), 0.5F * (t3 - t2)};
+}
+
+// A grid with one node of margin on every side, so that the cubic needs no special cases.
+class Grid {
+  public:
+    Grid(int rows, int columns)
+        : rows_(rows),
+          columns_(columns),
+          nodes_(static_cast<std::size_t>(rows + 2) * static_cast<std::size_t>(columns + 2)) {}
+
+    [[nodiscard]] Node& at(int row, int column) noexcept { return nodes_[index(row, column)]; }
+    [[nodiscard]] int rows() const noexcept { return rows_; }
+
+    // Mirror about the source's azimuth and its opposite.
+    void close_row(int row) noexcept {
+        at(row, -1) = at(row, 1);
+        at(row, columns_) = at(row, columns_ - 2);
+    }
+    // `even`: the first row is a mirror, too (smooth in the square of the row); otherwise all margins
+    // continue quadratically.
+    void close(bool even) noexcept {
+        for (int column = -1; column <= columns_; ++column) {
+            if (even) {
+                at(-1, column) = at(1, column);
+            } else {
+                extend(at(0, column), at(1, column), at(2, column), at(-1, column));
+            }
+            extend(at(rows_ - 1, column), at(rows_ - 2, column), at(rows_ - 3, column), at(rows_, column));
+        }
+    }
+    [[nodiscard]] Node sample(float row, float column) const noexcept {
+        const int i = std::clamp(static_cast<int>(row), 0, rows_ - 2);
+        const int j = std::clamp(static_cast<int>(column), 0, columns_ - 2);
+        const auto by_row = catmull_rom(std::clamp(row - static_cast<float>(i), 0.0F, 1.0F));
+        const auto by_column = catmull_rom(std::clamp(column - static_cast<float>(j), 0.0F, 1.0F));
+        Node sum{};
+        for (int a = 0; a < 4; ++a) {
+            const Node* line = &nodes_[index(i - 1 + a, j - 1)];
+            for (std::size_t b = 0; b < 4; ++b) {
+                const float weight = by_row[static_cast<std::size_t>(a)] * by_column[b];
+                for (std::size_t k = 0; k < sum.size(); ++k)
+                    sum[k] += weight * line[b][k];
+            }
+        }
+        return sum;
+    }
+
+  private:
+    [[nodiscard]] std::size_t index(int row, int column) const noexcept {
+        return static_cast<std::size_t>(row + 1) * static_cast<std::size_t>(columns_ + 2) +
+               static_cast<std::size_t>(column + 1);
+    }
+    static void extend(const Node& edge, const Node& next, const Node& third, Node& margin) noexcept {
+        for (std::size_t k = 0; k < margin.size(); ++k) {
+            margin[k] = 3.0F * edge[k] - 3.0F * next[k] + third[k];
+        }
+    }
+
+    int rows_;
+    int columns_;
+    std::vector<Node> nodes_;
+};
+
+}  // namespace
+
+struct SkyView::State {
+    explicit State(const SkyViewSize& wanted)
+        : size(wanted),
+          sky(size.sky_rows, size.columns),
+          ground(size.ground_rows, size.columns),
+          steps(static_cast<std::size_t>(size.steps)) {}
+
+    void place_rows() noexcept;
+    void build_row(int row) noexcept;
+    [[nodiscard]] double elevation_rad(Side side, int row) const noexcept;
+    [[nodiscard]] Node radiance(const Path& path, double view_cosine) const noexcept;
+    [[nodiscard]] glm::vec3 look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept;
+
+    SkyViewSize size;
+    Grid sky;
+    Grid ground;
+    std::vector<PathStep> steps;
+    std::optional<AirTables> tables;
+    double eye_height_m = kLowestEyeM;
+    double source_elevation_rad = 0.0;
+    double source_sine = 0.0;
+    double source_cosine = 1.0;
+    double horizon_rad = 0.0;
+    double highest_rad = kHalfPi;  // beyond it there is no air to see
+    RowMap sky_map;
+    RowMap ground_map;
+    int rows_done = 0;
+};
+
+// The sky bends within a few scale heights of tangent height above the horizon: near the ground within about
+// 2 deg, from high up within that height over the distance of the horizon. The ground bends within about its
+// dip.
+void SkyView::State::place_rows() noexcept {
+    const Shell& shell = tables->data().shell;
+    const double dip_rad = shell.dip_rad(eye_height_m);
+    horizon_rad = -dip_rad;
+    highest_rad = kHalfPi;
+    if (eye_height_m > shell.top_height_m) {
+        const double excess = (eye_height_m - shell.top_height_m) *
+                              (2.0 * shell.ground_radius_m + shell.top_height_m + eye_height_m);
+        highest_rad = -std::atan2(std::sqrt(excess), shell.ground_radius_m + shell.top_height_m);
+    }
+    const double horizon_m = std::sqrt(shell.excess_m2(eye_height_m));
+    constexpr double kBendM = 8000.0;
+    const double sky_range = highest_rad - horizon_rad;
+    sky_map = RowMap::over(sky_range, std::min({0.035, kBendM / std::max(horizon_m, 1.0), 0.1 * sky_range}));
+    const double ground_range = kHalfPi - dip_rad;
+    ground_map = RowMap::over(ground_range, std::clamp(0.5 * dip_rad, 2e-4, 0.1 * ground_range));
+}
+
+double SkyView::State::elevation_rad(Side side, int row) const noexcept {
+    const RowMap& map = side == Side::kSky ? sky_map : ground_map;
+    const int last = (side == Side::kSky ? size.sky_rows : size.ground_rows) - 1;
+    const double angle_rad = map.angle_rad(static_cast<double>(row) / last);
+    return horizon_rad + (side == Side::kSky ? angle_rad : -angle_rad);
+}
+
+Node SkyView::State::radiance(const Path& path, double view_cosine) const noexcept {
+    const AirData& data = tables->data();
+    const Source source{source_sine, view_cosine, static_cast<float>(rayleigh_phase(view_cosine))};
+    Lanes light{};
+    Lanes aerosol{};
+    kernels().add_first_order(data.medium, data.column_table(), path, source, light, aerosol);
+    kernels().add_higher_orders(data.medium, data.moment_table(), path, source, light);
+    Node node{};
+    for (std::size_t row = 0; row < 3; ++row) {
+        const Spectrum& weight = data.model.sunlight_xyz_lux[row];
+        for (std::size_t i = 0; i < weight.size(); ++i) {
+            node[row] += weight[i] * light.v[i];
+            node[row + 4] += weight[i] * aerosol.v[i];
+        }
+    }
+    return node;
+}
+
+void SkyView::State::build_row(int row) noexcept {
+    const Side side = row < size.sky_rows ? Side::kSky : Side::kGround;
+    const int line = side == Side::kSky ? row : row - size.sky_rows;
+    Grid& grid = side == Side::kSky ? sky : ground;
+    const AirData& data = tables->data();
+    const double elevation = elevation_rad(side, line);
+    const double sine = line == 0 ? -data.shell.dip_sine(eye_height_m) : std::sin(elevation);
+    const double cosine = std::cos(elevation);
+
+    Path path{};
+    path.steps = steps.data();
+    lay_path(data, eye_height_m, sine, side, size.steps, path);
+    kernels().weigh(data.medium, path);
+    for (int column = 0; column < size.columns; ++column) {
+        const double azimuth = std::numbers::pi * column / (size.columns - 1);
+        const double view_cosine = sine * source_sine + cosine * source_cosine * std::cos(azimuth);
+        grid.at(line, column) = radiance(path, std::clamp(view_cosine, -1.0, 1.0));
+    }
+    grid.close_row(line);
+}
+
+glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept {
+    const auto horizon = static_cast<float>(horizon_rad);
+    const float around = std::abs(std::remainder(azimuth_rad, 2.0F * std::numbers::pi_v<float>));
+    const float angle = side == Side::kSky ? elevation_rad - horizon : horizon - elevation_rad;
+    const RowMap& map = side == Side::kSky ? sky_map : ground_map;
+    const auto range = static_cast<float>(map.range_rad);
+    if (side == Side::kSky && angle >= range && highest_rad < kHalfPi) return glm::vec3(0.0F);
+    const float within = std::clamp(angle, 0.0F, range);
+    const Grid& grid = side == Side::kSky ? sky : ground;
+    const Node node =
+        grid.sample(map.w(within) * static_cast<float>(grid.rows() - 1),
+                    around * std::numbers::inv_pi_v<float> * static_cast<float>(size.columns - 1));
+
+    const float elevation = side == Side::kSky ? horizon + within : horizon - within;
+    const float cosine = std::sin(elevation) * static_cast<float>(source_sine) +
+                         std::cos(elevation) * static_cast<float>(source_cosine) * std::cos(around);
+    const float phase =
+        cornette_shanks_phase(static_cast<float>(tables->model().aerosol_g), std::clamp(cosine, -1.0F, 1.0F));
+    return glm::max(glm::vec3(node[0], node[1], node[2]) + phase * glm::vec3(node[4], node[5], node[6]),
+                    glm::vec3(0.0F));
+}
+
+SkyView::SkyView(const SkyViewSize& size) {
+    SkyViewSize least = size;
+    least.sky_rows = std::max(size.sky_rows, 4);
+    least.ground_rows = std::max(size.ground_rows, 4);
+    least.columns = std::max(size.columns, 4);
+    least.steps = std::max(size.steps, 4);
+    state_ = std::make_unique<State>(least);
+}
+SkyView::~SkyView() = default;
+SkyView::SkyView(SkyView&&) noexcept = default;
+SkyView& SkyView::operator=(SkyView&&) noexcept = default;
+
+void SkyView::begin(const AirTables& tables, double eye_height_m, double source_elevation_rad) noexcept {
+    State& state = *state_;
+    constexpr double kFarthestEyeM = 1e9;
+    state.tables = tables;
+    state.eye_height_m =
+        std::isfinite(eye_height_m) ? std::clamp(eye_height_m, kLowestEyeM, kFarthestEyeM) : kLowestEyeM;
+    state.source_elevation_rad =
+        std::isfinite(source_elevation_rad) ? std::clamp(source_elevation_rad, -kHalfPi, kHalfPi) : -kHalfPi;
+    state.source_sine = std::sin(state.source_elevation_rad);
+    state.source_cosine = std::cos(state.source_elevation_rad);
+    state.place_rows();
+    state.rows_done = 0;
+}
+
+bool SkyView::build_rows(int max_rows) noexcept {
+    State& state = *state_;
+    if (!state.tables) return false;
+    const int all = state.size.sky_rows + state.size.ground_rows;
+    if (state.rows_done == all) return true;
+    const int last = std::min(all, state.rows_done + std::max(0, max_rows));
+    for (; state.rows_done < last; ++state.rows_done)
+        state.build_row(state.rows_done);
+    if (state.rows_done < all) return false;
+    state.sky.close(true);
+    state.ground.close(false);
+    return true;
+}
+
+void SkyView::build_all() noexcept {
+    build_rows(state_->size.sky_rows + state_->size.ground_rows);
+}
+
+bool SkyView::complete() const noexcept {
+    return state_->tables.has_value() &&
+           state_->rows_done == state_->size.sky_rows + state_->size.ground_rows;
+}
+
+glm::vec3 SkyView::xyz(float elevation_rad, float relative_azimuth_rad) const noexcept {
+    return elevation_rad >= static_cast<float>(state_->horizon_rad)
+               ? xyz_above(elevation_rad, relative_azimuth_rad)
+               : xyz_below(elevation_rad, relative_azimuth_rad);
+}
+
+glm::vec3 SkyView::xyz_above(float elevation_rad, float relative_azimuth_rad) const noexcept {
+    return state_->look_up(Side::kSky, elevation_rad, relative_azimuth_rad);
+}
+
+glm::vec3 SkyView::xyz_below(float elevation_rad, float relative_azimuth_rad) const noexcept {
+    return state_->look_up(Side::kGround, elevation_rad, relative_azimuth_rad);
+}
+
+double SkyView::horizon_elevation_rad() const noexcept {
+    return state_->horizon_rad;
+}
+double SkyView::eye_height_m() const noexcept {
+    return state_->eye_height_m;
+}
+double SkyView::source_elevation_rad() const noexcept {
+    return state_->source_elevation_rad;
+}
+const SkyViewSize& SkyView::size() const noexcept {
+    return state_->size;
+}
+
+double SkyView::sky_row_elevation_rad(int row) const noexcept {
+    return state_->elevation_rad(Side::kSky, row);
+}
+
+double SkyView::ground_row_elevation_rad(int row) const noexcept {
+    return state_->elevation_rad(Side::kGround, row);
+}
+
+}  // namespace skyig::render::sky
