@@ -1,0 +1,285 @@
+#include "protocol/transport/udp.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <string_view>
+#include <thread>
+
+namespace skyig::protocol::transport {
+namespace {
+
+constexpr std::size_t kBatch = 16;
+constexpr std::size_t kLargestDatagram = 65536;
+/// What the kernel may hold for us while the thread is not running: two seconds of a busy host.
+constexpr int kKernelBufferBytes = 1 << 20;
+constexpr Ipv4 kLoopbackNet = 127;
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+sockaddr_in to_sockaddr(const Endpoint& endpoint) noexcept {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(endpoint.port);
+    address.sin_addr.s_addr = htonl(endpoint.address);
+    return address;
+}
+
+Endpoint to_endpoint(const sockaddr_in& address) noexcept {
+    return {ntohl(address.sin_addr.s_addr), ntohs(address.sin_port)};
+}
+
+std::int64_t to_ns(const timespec& time) noexcept {
+    return static_cast<std::int64_t>(time.tv_sec) * kNanosecondsPerSecond + time.tv_nsec;
+}
+
+/// One line: what failed and what would help.
+std::string open_error(const Endpoint& endpoint, int error) {
+    std::string_view reason;
+    switch (error) {
+        case EADDRINUSE:
+            reason = "address already in use; stop the other program or choose another listen port";
+            break;
+        case EADDRNOTAVAIL:
+            reason = "this machine has no such address; listen on one of its own, 127.0.0.1 or 0.0.0.0";
+            break;
+        case EACCES:
+            reason = "not permitted; choose a listen port above 1023";
+            break;
+        default:
+            return fmt::format("udp {}: {}", to_string(endpoint), std::strerror(error));
+    }
+    return fmt::format("udp {}: {}", to_string(endpoint), reason);
+}
+
+FileDescriptor open_socket() noexcept {
+    return FileDescriptor(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+}
+
+/// The kernel's receive stamp, or the time now if a message carries none.
+std::int64_t arrival_of(msghdr& header) noexcept {
+    for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr; part = CMSG_NXTHDR(&header, part)) {
+        if (part->cmsg_level == SOL_SOCKET && part->cmsg_type == SCM_TIMESTAMPNS) {
+            timespec stamp{};
+            std::memcpy(&stamp, CMSG_DATA(part), sizeof(stamp));
+            return to_ns(stamp);
+        }
+    }
+    timespec now{};
+    ::clock_gettime(CLOCK_REALTIME, &now);
+    return to_ns(now);
+}
+
+void signal(const FileDescriptor& event) noexcept {
+    const std::uint64_t one = 1;
+    // Fails only when the counter is full, that is, when it is signalled already.
+    [[maybe_unused]] const ssize_t written = ::write(event.get(), &one, sizeof(one));
+}
+
+void add(std::atomic<std::uint64_t>& counter, std::uint64_t amount) noexcept {
+    counter.fetch_add(amount, std::memory_order_relaxed);
+}
+
+/// Buffers of one recvmmsg call, made once.
+class ReceiveBatch {
+  public:
+    ReceiveBatch() : storage_(new std::byte[kBatch * kLargestDatagram]) {}
+
+    /// Number of datagrams taken, or -1 with errno.
+    int receive(int socket) noexcept {
+        for (std::size_t i = 0; i < kBatch; ++i) {
+            parts_[i] = {storage_.get() + i * kLargestDatagram, kLargestDatagram};
+            msghdr& header = messages_[i].msg_hdr;
+            header = {};
+            header.msg_name = &senders_[i];
+            header.msg_namelen = sizeof(senders_[i]);
+            header.msg_iov = &parts_[i];
+            header.msg_iovlen = 1;
+            header.msg_control = controls_[i].bytes;
+            header.msg_controllen = sizeof(controls_[i].bytes);
+        }
+        return ::recvmmsg(socket, messages_.data(), kBatch, MSG_DONTWAIT, nullptr);
+    }
+
+    [[nodiscard]] Datagram datagram(std::size_t i) noexcept {
+        return {to_endpoint(senders_[i]),
+                arrival_of(messages_[i].msg_hdr),
+                {storage_.get() + i * kLargestDatagram, messages_[i].msg_len}};
+    }
+
+  private:
+    struct Control {
+        alignas(cmsghdr) std::byte bytes[CMSG_SPACE(sizeof(timespec))];
+    };
+
+    std::unique_ptr<std::byte[]> storage_;
+    std::array<mmsghdr, kBatch> messages_{};
+    std::array<iovec, kBatch> parts_{};
+    std::array<sockaddr_in, kBatch> senders_{};
+    std::array<Control, kBatch> controls_{};
+};
+
+}  // namespace
+
+struct UdpReceiver::State {
+    State(FileDescriptor bound, const Endpoint& bound_to, const UdpOptions& options)
+        : socket(std::move(bound)),
+          stop(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
+          ready(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
+          local(bound_to),
+          allowed(options.allowed),
+          ring(options.ring_bytes) {}
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() {
+        signal(stop);
+        if (thread.joinable()) thread.join();
+    }
+
+    [[nodiscard]] bool is_allowed(Ipv4 address) const noexcept {
+        if (allowed.empty()) return address >> 24U == kLoopbackNet;
+        return std::find(allowed.begin(), allowed.end(), address) != allowed.end();
+    }
+
+    /// True if the datagram is in the ring.
+    bool take(const Datagram& datagram) noexcept {
+        if (!is_allowed(datagram.from.address)) {
+            add(not_allowed, 1);
+            return false;
+        }
+        if (!ring.push(datagram)) {
+            add(ring_full, 1);
+            return false;
+        }
+        add(received, 1);
+        add(received_bytes, datagram.bytes.size());
+        return true;
+    }
+
+    /// Until the socket is empty. False if it is broken for now.
+    bool receive_all() noexcept {
+        for (;;) {
+            const int count = batch.receive(socket.get());
+            if (count < 0) {
+                if (errno == EINTR) continue;
+                if (errno == EAGAIN || errno == EWOULDBLOCK) return true;
+                add(errors, 1);
+                return false;
+            }
+            for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+                take(batch.datagram(i));
+            signal(ready);
+            if (static_cast<std::size_t>(count) < kBatch) return true;
+        }
+    }
+
+    void run() noexcept {
+        constexpr int kPauseAfterErrorMs = 10;
+        std::array<pollfd, 2> watched{{{stop.get(), POLLIN, 0}, {socket.get(), POLLIN, 0}}};
+        for (;;) {
+            if (::poll(watched.data(), watched.size(), -1) < 0 && errno != EINTR) add(errors, 1);
+            if ((watched[0].revents & POLLIN) != 0) return;
+            // A socket that fails again and again must not take a processor for itself.
+            if (watched[1].revents != 0 && !receive_all()) ::poll(watched.data(), 1, kPauseAfterErrorMs);
+        }
+    }
+
+    FileDescriptor socket;
+    FileDescriptor stop;
+    FileDescriptor ready;
+    Endpoint local;
+    std::vector<Ipv4> allowed;
+    DatagramRing ring;
+    ReceiveBatch batch;
+    std::atomic<std::uint64_t> received{0};
+    std::atomic<std::uint64_t> received_bytes{0};
+    std::atomic<std::uint64_t> not_allowed{0};
+    std::atomic<std::uint64_t> ring_full{0};
+    std::atomic<std::uint64_t> errors{0};
+    std::thread thread;
+};
+
+Result<UdpSender, std::string> UdpSender::open() {
+    FileDescriptor socket = open_socket();
+    if (!socket) return Error{fmt::format("udp: no socket: {}", std::strerror(errno))};
+    return UdpSender(std::move(socket));
+}
+
+bool UdpSender::send(const Endpoint& to, std::span<const std::byte> bytes) noexcept {
+    const sockaddr_in address = to_sockaddr(to);
+    const ssize_t taken = ::sendto(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
+                                   reinterpret_cast<const sockaddr*>(&address), sizeof(address));
+    const bool whole = taken == static_cast<ssize_t>(bytes.size());
+    ++(whole ? sent_ : failed_);
+    return whole;
+}
+
+Result<UdpReceiver, std::string> UdpReceiver::open(const UdpOptions& options) {
+    const auto failed = [&options] { return Error{open_error(options.listen, errno)}; };
+    FileDescriptor socket = open_socket();
+    if (!socket) return failed();
+    const int on = 1;
+    if (::setsockopt(socket.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof(on)) != 0) return failed();
+    // Wanted, not needed: a smaller buffer is counted nowhere but loses nothing while the thread runs.
+    ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUF, &kKernelBufferBytes, sizeof(kKernelBufferBytes));
+    sockaddr_in address = to_sockaddr(options.listen);
+    if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
+        return failed();
+    socklen_t length = sizeof(address);
+    if (::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&address), &length) != 0) return failed();
+
+    auto state = std::make_unique<State>(std::move(socket), to_endpoint(address), options);
+    if (!state->stop || !state->ready) return failed();
+    State* running = state.get();
+    state->thread = std::thread([running] { running->run(); });
+    return UdpReceiver(std::move(state));
+}
+
+UdpReceiver::UdpReceiver(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+UdpReceiver::UdpReceiver(UdpReceiver&&) noexcept = default;
+UdpReceiver& UdpReceiver::operator=(UdpReceiver&&) noexcept = default;
+UdpReceiver::~UdpReceiver() = default;
+
+DatagramRing& UdpReceiver::ring() noexcept {
+    return state_->ring;
+}
+
+bool UdpReceiver::wait(std::chrono::milliseconds timeout) noexcept {
+    // The event is cleared before the ring is looked at: what is pushed after the look signals again.
+    pollfd watched{state_->ready.get(), POLLIN, 0};
+    std::uint64_t signals = 0;
+    [[maybe_unused]] ssize_t cleared = ::read(state_->ready.get(), &signals, sizeof(signals));
+    if (!state_->ring.empty()) return true;
+    ::poll(&watched, 1, static_cast<int>(timeout.count()));
+    cleared = ::read(state_->ready.get(), &signals, sizeof(signals));
+    return !state_->ring.empty();
+}
+
+Endpoint UdpReceiver::local() const noexcept {
+    return state_->local;
+}
+
+UdpCounters UdpReceiver::counters() const noexcept {
+    const auto value = [](const std::atomic<std::uint64_t>& counter) {
+        return counter.load(std::memory_order_relaxed);
+    };
+    return {value(state_->received), value(state_->received_bytes), value(state_->not_allowed),
+            value(state_->ring_full), value(state_->errors)};
+}
+
+Result<UdpSender, std::string> UdpReceiver::make_sender() const {
+    FileDescriptor copy(::fcntl(state_->socket.get(), F_DUPFD_CLOEXEC, 0));
+    if (!copy) return Error{fmt::format("udp {}: {}", to_string(state_->local), std::strerror(errno))};
+    return UdpSender(std::move(copy));
+}
+
+}  // namespace skyig::protocol::transport
