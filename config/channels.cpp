@@ -36,9 +36,9 @@ void read_offset(TableReader& table, Channel& channel, ChannelPlaces& places) {
     }
     for (std::size_t i = 0; i < channel.offset_m.size(); ++i) {
         double read = 0.0;
-        if (!as_number(list->items[i], read) || std::abs(read) > 1000.0) {
+        if (!as_number(list->items[i], read) || std::abs(read) > kMaxOffset_m) {
             table.error(list->items[i], "offset_m",
-                        fmt::format("holds what is not a number within 1000 m; {}", kWanted));
+                        fmt::format("holds what is not a number within {} m; {}", kMaxOffset_m, kWanted));
             continue;
         }
         channel.offset_m[i] = read;

@@ -15,6 +15,8 @@ namespace skyig::config {
 inline constexpr std::size_t kMaxChannels = 16;
 /// All channels of one daemon share one eye point; views further apart than this need a daemon of their own.
 inline constexpr double kMaxEyeSpread_m = 50.0;
+/// Furthest offset of an eye point from what carries it, each axis.
+inline constexpr double kMaxOffset_m = 1000.0;
 /// Largest half angle of a frustum side, either sign.
 inline constexpr double kMaxHalfAngle_deg = 87.5;
 inline constexpr int kMaxChannelSize_px = 16384;
@@ -148,7 +150,7 @@ struct Channel {
     double yaw_deg = 0.0;
     double pitch_deg = 0.0;
     double roll_deg = 0.0;
-    /// Eye point from the ownship's reference point, body axes: forward, right, down.
+    /// Eye point from the ownship's reference point, body axes: forward, right, down; each within +-kMaxOffset_m.
     std::array<double, 3> offset_m{0.0, 0.0, 0.0};
     /// How the host's View Control and View Definition address it; unique. If not given: its place in the
     /// file, from 1.

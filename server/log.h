@@ -67,7 +67,7 @@ class Log {
     void write_limited(std::string_view key, double every_s, Severity severity, fmt::string_view format,
                        fmt::format_args args);
     void emit(Severity severity, std::string_view line);
-    Limit* find_limit(std::string_view key, std::int64_t now_ns, bool& first);
+    Limit& find_limit(std::string_view key, std::int64_t now_ns, bool& first);
 
     const Clock& clock_;
     Severity threshold_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "render/scene.h"
 #include "server/ephemeris/sky_clockwork.h"
@@ -27,7 +28,7 @@ struct SkyAngles {
 /// yaw, pitch, roll. Allocates nothing. Cost: under 5 microseconds while time runs on.
 class SceneBuilder {
   public:
-    [[nodiscard]] render::Scene build(const world::World& world, std::uint64_t frame_number) noexcept;
+    [[nodiscard]] render::Scene build(const world::World& world, std::uint64_t frame_number);
 
     /// Largest distance of a view's eye point from the one eye that is drawn, in the last scene.
     [[nodiscard]] double eye_spread_m() const noexcept { return eye_spread_m_; }
@@ -36,7 +37,13 @@ class SceneBuilder {
     [[nodiscard]] bool date_clamped() const noexcept { return date_clamped_; }
 
   private:
+    void place_eye(const world::World& world, render::Scene& scene);
+    void aim_views(const world::World& world, render::Scene& scene) noexcept;
+
     ephemeris::SkyClockwork clockwork_;
+    /// Of the frame at hand: east-north-up at the ownship from that at the eye, row by row as the library
+    /// fills it.
+    std::vector<double> ownship_from_eye_ = std::vector<double>(9);
     double eye_spread_m_ = 0.0;
     bool date_clamped_ = false;
 };

@@ -33,7 +33,7 @@ struct CelestialSwitches {
     double star_intensity = 1.0;
 };
 
-/// The global base state of the air, always inside what can be drawn.
+/// The global base state of the air. Always finite; the renderer brings it to the nearest that it can draw.
 struct AirState {
     bool model_enabled = true;
     /// Meteorological optical range, and the contrast that is left over at that range.
@@ -106,9 +106,10 @@ struct Counters {
     std::uint64_t ownship_attached = 0;  ///< the ownship attached to a parent: its offsets mean nothing here
     std::uint64_t position_refused = 0;  ///< ownship outside the heights that are drawn
     std::uint64_t clock_refused = 0;     ///< a date and time that does not exist
-    std::uint64_t air_clamped = 0;       ///< air beyond what can be drawn, brought to the nearest that can
+    std::uint64_t air_refused = 0;       ///< values of the air that no sky has: those stay as they were
     std::uint64_t unknown_view = 0;      ///< a view id that no channel has
     std::uint64_t view_entity = 0;       ///< a view carried by another entity than the ownship
+    std::uint64_t view_offset = 0;       ///< an eye further than config::kMaxOffset_m from what carries it
     std::uint64_t frustum_refused = 0;   ///< half angles that leave no picture
     std::uint64_t orthographic = 0;      ///< parallel projection: not drawn
     std::uint64_t mirrored = 0;          ///< mirror mode: not drawn
@@ -133,9 +134,10 @@ inline constexpr std::array kCounterNames{
     NamedCounter{"ownship_attached", &Counters::ownship_attached},
     NamedCounter{"position_refused", &Counters::position_refused},
     NamedCounter{"clock_refused", &Counters::clock_refused},
-    NamedCounter{"air_clamped", &Counters::air_clamped},
+    NamedCounter{"air_refused", &Counters::air_refused},
     NamedCounter{"unknown_view", &Counters::unknown_view},
     NamedCounter{"view_entity", &Counters::view_entity},
+    NamedCounter{"view_offset", &Counters::view_offset},
     NamedCounter{"frustum_refused", &Counters::frustum_refused},
     NamedCounter{"orthographic", &Counters::orthographic},
     NamedCounter{"mirrored", &Counters::mirrored},

@@ -18,6 +18,7 @@ enum class ViewResult : std::uint8_t {
     kDone,
     kUnknownView,
     kOtherEntity,
+    kFarAway,  ///< an enabled offset beyond config::kMaxOffset_m
     kBadFrustum,
     kOrthographic,  ///< stored, picture unchanged
     kMirrored,      ///< the rest is done, the mirror stored but not drawn

@@ -73,16 +73,17 @@ class World {
     enum class Verdict : std::uint8_t { kNoControl, kObeyed, kOtherHost, kStandby, kLate };
 
     /// Whether packets of the current message count; if not, says so in the counters.
-    [[nodiscard]] bool obeyed() noexcept;
+    [[nodiscard]] bool obeys() noexcept;
+    /// False if another host has it.
     [[nodiscard]] bool claim_link(const protocol::cigi::PacketInfo& info);
-    void announce_host(const protocol::cigi::PacketInfo& info);
+    void say_second_host();
     void note_events(const protocol::cigi::SessionEvents& events);
     void reset();
     void supervise_link(double step_s);
     void place_ownship(bool attached, const ephemeris::Geodetic& position, double yaw_deg, double pitch_deg,
                        double roll_deg);
-    void note_view(ViewResult result, const protocol::cigi::ViewControl* control,
-                   const protocol::cigi::ViewDefinition* definition);
+    void note_view(ViewResult result, std::uint16_t view_id);
+    void note_clock_step(const ephemeris::UtcClockTime& before);
 
     const config::Config& config_;
     Log& log_;

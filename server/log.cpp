@@ -1,0 +1,83 @@
+#include "server/log.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <iterator>
+#include <utility>
+
+namespace skyig::server {
+namespace {
+
+/// One write() a line, so that lines of several threads and processes do not mix. A closed stderr is nobody's
+/// concern.
+void write_all(int descriptor, std::string_view text) noexcept {
+    while (!text.empty()) {
+        const ssize_t written = ::write(descriptor, text.data(), text.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return;
+        text.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+}  // namespace
+
+Log::Log(const Clock& clock, Severity threshold)
+    : clock_(clock), threshold_(threshold), prefix_(::isatty(STDERR_FILENO) == 0) {}
+
+Log::Log(const Clock& clock, Sink sink, Severity threshold)
+    : clock_(clock), threshold_(threshold), sink_(std::move(sink)) {}
+
+void Log::write(Severity severity, fmt::string_view format, fmt::format_args args) {
+    if (severity > threshold_) return;
+    fmt::memory_buffer line;
+    fmt::vformat_to(std::back_inserter(line), format, args);
+    const std::lock_guard lock(mutex_);
+    emit(severity, {line.data(), line.size()});
+}
+
+void Log::write_limited(std::string_view key, double every_s, Severity severity, fmt::string_view format,
+                        fmt::format_args args) {
+    if (severity > threshold_) return;
+    const std::int64_t now_ns = clock_.monotonic_ns();
+    const std::lock_guard lock(mutex_);
+    bool first = false;
+    Limit& limit = find_limit(key, now_ns, first);
+    if (!first && static_cast<double>(now_ns - limit.last_ns) < every_s * 1e9) {
+        ++limit.suppressed;
+        return;
+    }
+    fmt::memory_buffer line;
+    fmt::vformat_to(std::back_inserter(line), format, args);
+    if (limit.suppressed > 0) {
+        fmt::format_to(std::back_inserter(line), " ({} more like this left out)", limit.suppressed);
+    }
+    limit.last_ns = now_ns;
+    limit.suppressed = 0;
+    emit(severity, {line.data(), line.size()});
+}
+
+Log::Limit& Log::find_limit(std::string_view key, std::int64_t now_ns, bool& first) {
+    for (std::size_t i = 0; i < limit_count_; ++i) {
+        if (limits_[i].key == key) return limits_[i];
+    }
+    if (limit_count_ == kMaxKeys) return limits_[kMaxKeys - 1];
+    first = true;
+    limits_[limit_count_] = {key, now_ns, 0};
+    return limits_[limit_count_++];
+}
+
+void Log::emit(Severity severity, std::string_view line) {
+    if (sink_) {
+        sink_(severity, line);
+        return;
+    }
+    fmt::memory_buffer whole;
+    if (prefix_) fmt::format_to(std::back_inserter(whole), "<{}>", static_cast<int>(severity));
+    whole.append(line.data(), line.data() + line.size());
+    whole.push_back('\n');
+    write_all(STDERR_FILENO, {whole.data(), whole.size()});
+}
+
+}  // namespace skyig::server

@@ -1,0 +1,153 @@
+#include "server/scene_builder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <GeographicLib/LocalCartesian.hpp>
+#include <glm/glm.hpp>
+
+#include "server/ephemeris/time.h"
+
+namespace skyig::server {
+namespace {
+
+static_assert(config::kMaxChannels <= render::kMaxChannels,
+              "every configured channel has a place in the scene");
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kRadPerDeg = kPi / 180.0;
+
+glm::dmat3 axes_from_parent(double yaw_deg, double pitch_deg, double roll_deg) noexcept {
+    return render::body_from_ned(yaw_deg * kRadPerDeg, pitch_deg * kRadPerDeg, roll_deg * kRadPerDeg);
+}
+
+glm::dmat3 axes_from_parent(const world::ViewPose& pose) noexcept {
+    return axes_from_parent(pose.yaw_deg, pose.pitch_deg, pose.roll_deg);
+}
+
+/// Eye point of a view along the ownship's body axes: the group is moved and turned first, then the view in
+/// it.
+glm::dvec3 eye_offset_m(const world::Views& views, const world::View& view) noexcept {
+    const world::ViewPose& group = views.group(view.group_id);
+    const glm::dmat3 body_from_group = glm::transpose(axes_from_parent(group));
+    return group.offset_m + body_from_group * view.pose.offset_m;
+}
+
+glm::dmat3 body_from_enu(const world::Ownship& ownship) noexcept {
+    return axes_from_parent(ownship.yaw_deg, ownship.pitch_deg, ownship.roll_deg) * render::ned_from_enu();
+}
+
+render::Frustum frustum_of(const world::HalfAngles& angles) noexcept {
+    return {angles.left_deg * kRadPerDeg, angles.right_deg * kRadPerDeg, angles.bottom_deg * kRadPerDeg,
+            angles.top_deg * kRadPerDeg};
+}
+
+void light(const ephemeris::SkyState& sky, const world::CelestialSwitches& switches,
+           render::Scene& scene) noexcept {
+    scene.sun.enabled = switches.sun;
+    scene.sun.direction_enu = sky.sun.direction_enu;
+    scene.sun.distance_au = sky.sun.distance_au;
+    scene.sun.angular_radius_rad = sky.sun.angular_radius_rad;
+    // A Moon that is switched off covers nothing.
+    scene.sun.unobscured = switches.moon ? 1.0 - sky.sun.obscured : 1.0;
+
+    scene.moon.enabled = switches.moon;
+    scene.moon.direction_enu = sky.moon.direction_enu;
+    scene.moon.distance_km = sky.moon.distance_km;
+    scene.moon.angular_radius_rad = sky.moon.angular_radius_rad;
+    scene.moon.to_sun_enu = sky.moon.to_sun_enu;
+    scene.moon.phase_angle_rad = sky.moon.phase_angle_rad;
+
+    scene.stars.enabled = switches.stars;
+    scene.stars.intensity = switches.star_intensity;
+    scene.stars.enu_from_gcrs = sky.enu_from_gcrs;
+    scene.stars.earth_velocity_c = sky.earth_velocity_c;
+    scene.stars.years_since_j2000 = sky.years_since_j2000;
+}
+
+render::Air air_of(const world::AirState& state) noexcept {
+    render::Air air;
+    air.model_enabled = state.model_enabled;
+    air.visibility_m = state.visibility_m;
+    air.visibility_contrast = state.visibility_contrast;
+    air.temperature_c = state.temperature_c;
+    air.pressure_hpa = state.pressure_hpa;
+    air.humidity_pct = state.humidity_pct;
+    return air;
+}
+
+double elevation_deg(const glm::dvec3& direction) noexcept {
+    return std::atan2(direction.z, std::hypot(direction.x, direction.y)) / kRadPerDeg;
+}
+
+double azimuth_deg(const glm::dvec3& direction) noexcept {
+    const double azimuth = std::atan2(direction.x, direction.y) / kRadPerDeg;
+    return azimuth < 0.0 ? azimuth + 360.0 : azimuth;
+}
+
+}  // namespace
+
+render::Scene SceneBuilder::build(const world::World& world, std::uint64_t frame_number) {
+    render::Scene scene;
+    scene.frame_number = frame_number;
+    scene.time_s = world.time_s();
+    place_eye(world, scene);
+    aim_views(world, scene);
+    const ephemeris::Instant instant = ephemeris::make_instant(world.clock().now());
+    date_clamped_ = instant.clamped;
+    const ephemeris::Geodetic eye{scene.eye.latitude_deg, scene.eye.longitude_deg, scene.eye.height_m};
+    light(clockwork_.state(instant, eye), world.celestial(), scene);
+    scene.air = air_of(world.air());
+    return scene;
+}
+
+void SceneBuilder::place_eye(const world::World& world, render::Scene& scene) {
+    const world::Ownship& ownship = world.ownship();
+    const auto views = world.views().all();
+    glm::dvec3 sum{0.0};
+    for (const world::View& view : views)
+        sum += eye_offset_m(world.views(), view);
+    const glm::dvec3 mean = views.empty() ? sum : sum / static_cast<double>(views.size());
+    eye_spread_m_ = 0.0;
+    for (const world::View& view : views) {
+        eye_spread_m_ = std::max(eye_spread_m_, glm::distance(mean, eye_offset_m(world.views(), view)));
+    }
+    const ephemeris::Geodetic& place = ownship.position;
+    scene.eye = {place.latitude_deg, place.longitude_deg, place.height_m};
+    ownship_from_eye_ = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    // Without offsets the host's numbers go through untouched; next to a pole a metre may be many degrees of
+    // longitude.
+    if (mean == glm::dvec3{0.0}) return;
+    const glm::dvec3 offset_enu = glm::transpose(body_from_enu(ownship)) * mean;
+    const GeographicLib::LocalCartesian local(place.latitude_deg, place.longitude_deg, place.height_m);
+    local.Reverse(offset_enu.x, offset_enu.y, offset_enu.z, scene.eye.latitude_deg, scene.eye.longitude_deg,
+                  scene.eye.height_m, ownship_from_eye_);
+}
+
+void SceneBuilder::aim_views(const world::World& world, render::Scene& scene) noexcept {
+    const std::vector<double>& m = ownship_from_eye_;
+    const glm::dmat3 enu_from_eye_enu{glm::dvec3{m[0], m[3], m[6]}, glm::dvec3{m[1], m[4], m[7]},
+                                      glm::dvec3{m[2], m[5], m[8]}};
+    const glm::dmat3 body_from_eye_enu = body_from_enu(world.ownship()) * enu_from_eye_enu;
+    const auto views = world.views().all();
+    scene.view_count = std::min(views.size(), render::kMaxChannels);
+    for (std::size_t i = 0; i < scene.view_count; ++i) {
+        const world::View& view = views[i];
+        const glm::dmat3 group_from_body = axes_from_parent(world.views().group(view.group_id));
+        scene.views[i].frustum = frustum_of(view.half_angles);
+        scene.views[i].view_from_enu =
+            render::view_from_body() * axes_from_parent(view.pose) * group_from_body * body_from_eye_enu;
+    }
+}
+
+SkyAngles sky_angles(const render::Scene& scene) noexcept {
+    SkyAngles angles;
+    angles.sun_elevation_deg = elevation_deg(scene.sun.direction_enu);
+    angles.sun_azimuth_deg = azimuth_deg(scene.sun.direction_enu);
+    angles.moon_elevation_deg = elevation_deg(scene.moon.direction_enu);
+    angles.moon_azimuth_deg = azimuth_deg(scene.moon.direction_enu);
+    angles.moon_lit_fraction = 0.5 * (1.0 + std::cos(scene.moon.phase_angle_rad));
+    return angles;
+}
+
+}  // namespace skyig::server

@@ -1,0 +1,328 @@
+#include "server/world/world.h"
+
+#include <cmath>
+#include <string_view>
+
+namespace skyig::server::world {
+
+namespace cigi = protocol::cigi;
+using protocol::transport::to_string;
+
+namespace {
+
+/// A link that comes and goes, or a host that asks for the impossible in every message, fills no log.
+constexpr double kRepeatAfter_s = 10.0;
+
+cigi::SessionOptions session_options(const config::Host& host) {
+    cigi::SessionOptions options;
+    options.version = host.cigi.major == 4 ? cigi::Version::k40 : cigi::Version::k33;
+    options.database = host.database == config::DatabasePolicy::kAccept ? cigi::DatabasePolicy::kAccept
+                                                                        : cigi::DatabasePolicy::kNone;
+    return options;
+}
+
+Ownship configured_ownship(const config::Start& start) {
+    Ownship ownship;
+    ownship.position = {start.latitude_deg, start.longitude_deg, start.height_m};
+    ownship.yaw_deg = start.yaw_deg;
+    ownship.pitch_deg = start.pitch_deg;
+    ownship.roll_deg = start.roll_deg;
+    return ownship;
+}
+
+CelestialSwitches configured_celestial(const config::Sky& sky) {
+    return {sky.sun, sky.moon, sky.stars, sky.star_intensity_pct / 100.0};
+}
+
+AirState configured_air(const config::Air& air) {
+    AirState state;
+    state.visibility_m = air.visibility_m;
+    state.visibility_contrast = air.visibility_contrast;
+    state.temperature_c = air.temperature_c;
+    state.pressure_hpa = air.pressure_hpa;
+    state.humidity_pct = air.humidity_pct;
+    return state;
+}
+
+std::string_view mode_name(cigi::IgMode mode) {
+    switch (mode) {
+        case cigi::IgMode::kOperate:
+            return "operate";
+        case cigi::IgMode::kDebug:
+            return "debug";
+        case cigi::IgMode::kOfflineMaintenance:
+            return "offline maintenance";
+        case cigi::IgMode::kStandby:
+            break;
+    }
+    return "standby";
+}
+
+std::string_view version_name(cigi::Version version) {
+    return version == cigi::Version::k40 ? "4.0" : "3.3";
+}
+
+std::string_view order_name(cigi::ByteOrder order) {
+    return order == cigi::ByteOrder::kBig ? "big-endian" : "little-endian";
+}
+
+/// Takes over what a sky can have; hosts that care for visibility only leave the others at 0.
+bool take(double value, double min, double max, double& out) noexcept {
+    if (value < min || value > max) return false;
+    out = value;
+    return true;
+}
+
+}  // namespace
+
+World::World(const config::Config& config, const ephemeris::UtcClockTime& start_utc, Log& log)
+    : config_(config),
+      log_(log),
+      session_(session_options(config.host)),
+      default_utc_(start_utc),
+      clock_(start_utc, config.start.running),
+      ownship_(configured_ownship(config.start)),
+      celestial_(configured_celestial(config.sky)),
+      air_(configured_air(config.air)),
+      views_(config.channels) {}
+
+void World::begin_message(const protocol::transport::Endpoint& from) noexcept {
+    from_ = from;
+    verdict_ = Verdict::kNoControl;
+    // Should this message's IG Control be refused, its other packets count by what was agreed before.
+    if (link_.state == LinkState::kAlive && from == link_.host) {
+        verdict_ = mode() == cigi::IgMode::kStandby ? Verdict::kStandby : Verdict::kObeyed;
+    }
+}
+
+void World::operator()(const cigi::IgControl& packet, const cigi::PacketInfo& info) {
+    if (!claim_link(info)) {
+        verdict_ = Verdict::kOtherHost;
+        ++counters_.second_host;
+        say_second_host();
+        return;
+    }
+    const cigi::SessionEvents events = session_.receive(packet, info.version, info.order);
+    verdict_ = events.obey ? Verdict::kObeyed : events.late ? Verdict::kLate : Verdict::kStandby;
+    if (events.entered_standby) reset();
+    note_events(events);
+}
+
+bool World::claim_link(const cigi::PacketInfo& info) {
+    if (link_.state == LinkState::kAlive && from_ != link_.host) return false;
+    if (link_.state == LinkState::kLost && from_ == link_.host) {
+        log_.limited("host back", kRepeatAfter_s, Severity::kNotice, "host {} is back after {:.1f} s",
+                     to_string(from_), link_.silent_s);
+    } else if (link_.state != LinkState::kAlive) {
+        log_.limited("host appeared", kRepeatAfter_s, Severity::kNotice, "host {} speaks CIGI {}, {}",
+                     to_string(from_), version_name(info.version), order_name(info.order));
+        second_host_said_ = false;
+    }
+    link_.state = LinkState::kAlive;
+    link_.host = from_;
+    link_.silent_s = 0.0;
+    return true;
+}
+
+void World::say_second_host() {
+    if (second_host_said_) return;
+    second_host_said_ = true;
+    log_.warning("second host {} ignored: {} is obeyed until it is silent for {} s", to_string(from_),
+                 to_string(link_.host), config_.host.lost_after_s);
+}
+
+void World::note_events(const cigi::SessionEvents& events) {
+    counters_.frames_missed += events.frames_missed;
+    if (events.host_restarted) {
+        log_.limited("host restarted", kRepeatAfter_s, Severity::kNotice,
+                     "host {} began anew at its frame {}", to_string(from_),
+                     session_.last_host_frame_number());
+    }
+    if (events.mode_changed) {
+        log_.limited("mode", kRepeatAfter_s, Severity::kInfo, "host {} set mode {}", to_string(from_),
+                     mode_name(session_.mode()));
+    }
+}
+
+bool World::obeys() noexcept {
+    switch (verdict_) {
+        case Verdict::kObeyed:
+            return true;
+        case Verdict::kStandby:
+            ++counters_.standby_ignored;
+            return false;
+        case Verdict::kLate:
+            ++counters_.late_ignored;
+            return false;
+        case Verdict::kNoControl:
+            ++counters_.no_host;
+            return false;
+        case Verdict::kOtherHost:  // counted once a message
+            return false;
+    }
+    return false;
+}
+
+void World::reset() {
+    const ephemeris::UtcClockTime before = clock_.now();
+    clock_ = UtcClock(default_utc_, config_.start.running);
+    note_clock_step(before);
+    ownship_ = configured_ownship(config_.start);
+    celestial_ = configured_celestial(config_.sky);
+    air_ = configured_air(config_.air);
+    views_.reset();
+    weather_.clear();
+}
+
+void World::operator()(const cigi::EntityControl& packet, const cigi::PacketInfo& info) {
+    if (!obeys()) return;
+    if (packet.entity_id != 0) {
+        ++counters_.other_entity;
+        return;
+    }
+    ownship_.exists = packet.entity_state != cigi::EntityState::kDestroyed;
+    // In 4.0 the position is a packet of its own; a destroyed entity has none.
+    if (info.version == cigi::Version::k40 || !ownship_.exists) return;
+    place_ownship(packet.attach_state, {packet.lat_x, packet.lon_y, packet.alt_z},
+                  static_cast<double>(packet.yaw), static_cast<double>(packet.pitch),
+                  static_cast<double>(packet.roll));
+}
+
+void World::operator()(const cigi::EntityPosition& packet) {
+    if (!obeys()) return;
+    if (packet.entity_id != 0) {
+        ++counters_.other_entity;
+        return;
+    }
+    // The position may come before, or without, the packet that creates the ownship.
+    ownship_.exists = true;
+    place_ownship(packet.attach_state, {packet.lat_x, packet.lon_y, packet.alt_z},
+                  static_cast<double>(packet.yaw), static_cast<double>(packet.pitch),
+                  static_cast<double>(packet.roll));
+}
+
+void World::place_ownship(bool attached, const ephemeris::Geodetic& position, double yaw_deg,
+                          double pitch_deg, double roll_deg) {
+    if (attached) {
+        ++counters_.ownship_attached;
+        log_.limited("ownship attached", kRepeatAfter_s, Severity::kWarning,
+                     "host {} attaches the ownship to another entity: not supported, its last place is held",
+                     to_string(from_));
+        return;
+    }
+    if (!ephemeris::is_valid(position)) {
+        ++counters_.position_refused;
+        log_.limited("position refused", kRepeatAfter_s, Severity::kWarning,
+                     "ownship at {} m ignored: heights from {} to {} m can be drawn", position.height_m,
+                     ephemeris::kMinEyeHeight_m, ephemeris::kMaxEyeHeight_m);
+        return;
+    }
+    ownship_.position = position;
+    ownship_.yaw_deg = yaw_deg;
+    ownship_.pitch_deg = pitch_deg;
+    ownship_.roll_deg = roll_deg;
+    ownship_.placed_by_host = true;
+}
+
+void World::operator()(const cigi::CelestialSphereControl& packet) {
+    if (!obeys()) return;
+    celestial_ = {packet.sun_enable, packet.moon_enable, packet.star_enable,
+                  static_cast<double>(packet.star_intensity) / 100.0};
+    const ephemeris::UtcClockTime before = clock_.now();
+    if (!clock_.apply(packet)) {
+        ++counters_.clock_refused;
+        return;
+    }
+    note_clock_step(before);
+}
+
+void World::note_clock_step(const ephemeris::UtcClockTime& before) {
+    const double step_s = ephemeris::seconds_between(before, clock_.now());
+    if (std::abs(step_s) <= kClockJump_s) return;
+    time_s_ += step_s;
+    const ephemeris::CivilTime now = clock_.now().civil();
+    log_.limited("clock", kRepeatAfter_s, Severity::kInfo,
+                 "clock set to {:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", now.year, now.month, now.day, now.hour,
+                 now.minute, static_cast<int>(now.second));
+}
+
+void World::operator()(const cigi::AtmosphereControl& packet) {
+    if (!obeys()) return;
+    air_.model_enabled = packet.model_enable;
+    air_.humidity_pct = packet.humidity;
+    air_.visibility_m = static_cast<double>(packet.visibility);
+    air_.wind_horizontal_m_s = static_cast<double>(packet.wind_horizontal);
+    air_.wind_vertical_m_s = static_cast<double>(packet.wind_vertical);
+    air_.wind_from_deg = static_cast<double>(packet.wind_direction);
+    if (!take(static_cast<double>(packet.air_temperature), -100.0, 100.0, air_.temperature_c))
+        ++counters_.air_refused;
+    if (!take(static_cast<double>(packet.pressure), 300.0, 1200.0, air_.pressure_hpa))
+        ++counters_.air_refused;
+}
+
+void World::operator()(const cigi::WeatherControl& packet) {
+    if (obeys() && !weather_.set(packet)) ++counters_.weather_full;
+}
+
+void World::operator()(const cigi::EnvRegionControl& packet) {
+    if (obeys() && !weather_.set(packet)) ++counters_.weather_full;
+}
+
+void World::operator()(const cigi::ViewControl& packet) {
+    if (obeys()) note_view(views_.apply(packet), packet.view_id);
+}
+
+void World::operator()(const cigi::ViewDefinition& packet) {
+    if (obeys()) note_view(views_.apply(packet), packet.view_id);
+}
+
+void World::note_view(ViewResult result, std::uint16_t view_id) {
+    struct Fault {
+        std::uint64_t Counters::*counter;
+        const char* text;
+    };
+    const auto fault = [result]() -> Fault {
+        switch (result) {
+            case ViewResult::kUnknownView:
+                return {&Counters::unknown_view, "no channel has this view_id"};
+            case ViewResult::kOtherEntity:
+                return {&Counters::view_entity, "only the ownship (entity 0) carries views"};
+            case ViewResult::kFarAway:
+                return {&Counters::view_offset, "its offset is out of reach"};
+            case ViewResult::kBadFrustum:
+                return {&Counters::frustum_refused, "its half angles leave no picture"};
+            case ViewResult::kOrthographic:
+                return {&Counters::orthographic, "parallel projection is not supported, its picture stays"};
+            case ViewResult::kMirrored:
+                return {&Counters::mirrored, "mirror mode is not supported, its picture is not mirrored"};
+            case ViewResult::kDone:
+                break;
+        }
+        return {nullptr, ""};
+    }();
+    if (fault.counter == nullptr) return;
+    ++(counters_.*fault.counter);
+    // The text is a literal, one for each fault: it serves as the key.
+    log_.limited(fault.text, kRepeatAfter_s, Severity::kWarning, "view {}: {}", view_id, fault.text);
+}
+
+void World::advance(double step_s) {
+    if (!(step_s > 0.0) || !std::isfinite(step_s)) return;
+    time_s_ += step_s;
+    clock_.advance(step_s);
+    if (!config_.start.utc) default_utc_.advance(step_s);
+    supervise_link(step_s);
+}
+
+void World::supervise_link(double step_s) {
+    if (link_.state == LinkState::kNever) return;
+    link_.silent_s += step_s;
+    if (link_.state != LinkState::kAlive || link_.silent_s <= config_.host.lost_after_s) return;
+    link_.state = LinkState::kLost;
+    ++link_.losses;
+    log_.limited("host lost", kRepeatAfter_s, Severity::kWarning,
+                 "host {} lost: silent for {:.1f} s; the picture stays as it was, its clock goes on",
+                 to_string(link_.host), link_.silent_s);
+}
+
+}  // namespace skyig::server::world
