@@ -88,16 +88,22 @@ double angular_radius(double radius_km, double range_km) noexcept {
     return std::asin(std::min(radius_km / range_km, 1.0));
 }
 
-/// Phase and bright limb from the apparent vectors, so that they agree with what is drawn.
-void light_moon(MoonState& moon, const glm::dvec3& sun_enu_km,
-                const glm::dvec3& celestial_pole_enu) noexcept {
-    const glm::dvec3 moon_enu_km = moon.distance_km * moon.direction_enu;
-    moon.to_sun_enu = glm::normalize(sun_enu_km - moon_enu_km);
+/// Unit vector from the Moon to the Sun as the eye should draw it. Light falls on the Moon along the true
+/// direction; aberration turns what the eye sees of it, so the light turns with the Moon's apparent place and
+/// the phase stays the true one.
+glm::dvec3 apparent_sunlight(const glm::dvec3& sun_path_km, const glm::dvec3& moon_path_km,
+                             const glm::dvec3& moon_direction, const glm::dvec3& moon_apparent) noexcept {
+    const glm::dvec3 to_sun = glm::normalize(sun_path_km - moon_path_km);
+    const glm::dvec3 small_rotation = glm::cross(moon_direction, moon_apparent);
+    return glm::normalize(to_sun + glm::cross(small_rotation, to_sun));
+}
+
+/// Phase and bright limb from the direction to the Moon and its light.
+void describe_phase(MoonState& moon, const glm::dvec3& celestial_pole_enu) noexcept {
     moon.phase_angle_rad = angle_between_rad(-moon.direction_enu, moon.to_sun_enu);
     moon.lit_fraction = 0.5 * (1.0 - glm::dot(moon.direction_enu, moon.to_sun_enu));
     const glm::dvec3 east = glm::cross(celestial_pole_enu, moon.direction_enu);
     const glm::dvec3 north = glm::cross(moon.direction_enu, east);
-    // atan2(0, 0) is 0, which is what the header promises.
     moon.bright_limb_rad = std::atan2(glm::dot(moon.to_sun_enu, east), glm::dot(moon.to_sun_enu, north));
 }
 
@@ -134,17 +140,13 @@ SkyState sky_state_from(const SlowSky& slow, const Instant& instant, const Geode
     const Site site = site_of(accepted(eye));
     const double rotation_rad = eraEra00(instant.ut1.day, instant.ut1.fraction);
     const glm::dmat3 itrs_from_gcrs = rotation_about_z(rotation_rad) * slow.cirs_from_gcrs;
+    const glm::dmat3 gcrs_from_itrs = glm::transpose(itrs_from_gcrs);
 
-    const glm::dvec3 eye_km = glm::transpose(itrs_from_gcrs) * site.position_itrs_km;
+    const glm::dvec3 eye_km = gcrs_from_itrs * site.position_itrs_km;
     const glm::dvec3 turning_itrs_km_s =
         kEarthRate_rad_s * glm::dvec3(-site.position_itrs_km.y, site.position_itrs_km.x, 0.0);
-    const glm::dvec3 eye_velocity_km_s =
-        slow.earth_velocity_km_s + glm::transpose(itrs_from_gcrs) * turning_itrs_km_s;
-    const glm::dvec3 eye_velocity_c = eye_velocity_km_s / kSpeedOfLight_km_s;
-    const glm::dvec3 sun_path_km = light_path(slow.sun_km, slow.sun_velocity_km_s, eye_km);
-    const glm::dvec3 moon_path_km = light_path(slow.moon_km, slow.moon_velocity_km_s, eye_km);
-    const double sun_range_km = glm::length(sun_path_km);
-    const double moon_range_km = glm::length(moon_path_km);
+    const glm::dvec3 eye_velocity_c =
+        (slow.earth_velocity_km_s + gcrs_from_itrs * turning_itrs_km_s) / kSpeedOfLight_km_s;
 
     SkyState state;
     state.eye_accepted = is_valid(eye);
@@ -152,13 +154,23 @@ SkyState sky_state_from(const SlowSky& slow, const Instant& instant, const Geode
     state.earth_velocity_c = slow.earth_velocity_km_s / kSpeedOfLight_km_s;
     state.years_since_j2000 = ((instant.tt.day - ERFA_DJ00) + instant.tt.fraction) / 365.25;
 
+    const glm::dvec3 sun_path_km = light_path(slow.sun_km, slow.sun_velocity_km_s, eye_km);
+    const double sun_range_km = glm::length(sun_path_km);
     state.sun.direction_enu = state.enu_from_gcrs * aberrated(sun_path_km / sun_range_km, eye_velocity_c);
     state.sun.distance_au = sun_range_km / kKmPerAu;
     state.sun.angular_radius_rad = angular_radius(kSunRadius_km, sun_range_km);
-    state.moon.direction_enu = state.enu_from_gcrs * aberrated(moon_path_km / moon_range_km, eye_velocity_c);
+
+    const glm::dvec3 moon_path_km = light_path(slow.moon_km, slow.moon_velocity_km_s, eye_km);
+    const double moon_range_km = glm::length(moon_path_km);
+    const glm::dvec3 moon_direction = moon_path_km / moon_range_km;
+    const glm::dvec3 moon_apparent = aberrated(moon_direction, eye_velocity_c);
+    state.moon.direction_enu = state.enu_from_gcrs * moon_apparent;
     state.moon.distance_km = moon_range_km;
     state.moon.angular_radius_rad = angular_radius(kMoonRadius_km, moon_range_km);
-    light_moon(state.moon, sun_range_km * state.sun.direction_enu, site.enu_from_itrs[2]);
+    state.moon.to_sun_enu =
+        state.enu_from_gcrs * apparent_sunlight(sun_path_km, moon_path_km, moon_direction, moon_apparent);
+    describe_phase(state.moon, site.enu_from_itrs[2]);
+
     const double separation_rad = angle_between_rad(state.sun.direction_enu, state.moon.direction_enu);
     state.sun.obscured =
         covered_fraction(state.sun.angular_radius_rad, state.moon.angular_radius_rad, separation_rad);

@@ -22,7 +22,7 @@ constexpr std::int32_t kFirstLeapSecondMjd = 41317;  // 1972-01-01: UTC in whole
 constexpr std::int32_t kFirstMjd = -678575;          // 0001-01-01
 constexpr std::int32_t kLastMjd = 2973483;           // 9999-12-31
 constexpr std::int32_t kFirstSkyMjd = 15020;         // 1900-01-01
-constexpr std::int32_t kLastSkyMjd = 88068;          // 2100-12-31
+constexpr std::int32_t kLastSkyMjd = 88433;          // 2100-12-31
 
 struct Date {
     int year = 0;
@@ -119,18 +119,19 @@ bool is_valid(const CivilTime& time) noexcept {
 }
 
 std::optional<UtcClockTime> UtcClockTime::from_civil(const CivilTime& time) noexcept {
-    if (!is_valid(time)) return std::nullopt;
+    const std::optional<std::int32_t> mjd = mjd_of(time.year, time.month, time.day);
+    if (!mjd || !is_valid(time)) return std::nullopt;
     const double minutes_s = 3600.0 * time.hour + 60.0 * time.minute;
-    const std::int32_t mjd = *mjd_of(time.year, time.month, time.day);
     // A second just below the end of the day may round up to the end itself, which belongs to the next day.
-    const double below_end_s = std::nextafter(length_of_day_s(mjd), 0.0);
-    return UtcClockTime(mjd, std::min(minutes_s + time.second, below_end_s));
+    const double below_end_s = std::nextafter(length_of_day_s(*mjd), 0.0);
+    return UtcClockTime(*mjd, std::min(minutes_s + time.second, below_end_s));
 }
 
 UtcClockTime UtcClockTime::from_unix(std::int64_t seconds, std::int32_t nanoseconds) noexcept {
     constexpr std::int64_t kDay_s = 86400;
-    const std::int64_t second_of_day = ((seconds % kDay_s) + kDay_s) % kDay_s;
-    const std::int64_t days = (seconds - second_of_day) / kDay_s;
+    const std::int64_t rest_s = seconds % kDay_s;
+    const std::int64_t second_of_day = rest_s < 0 ? rest_s + kDay_s : rest_s;
+    const std::int64_t days = seconds / kDay_s - (rest_s < 0 ? 1 : 0);
     const std::int64_t mjd = std::clamp<std::int64_t>(days + kUnixEpochMjd, kFirstMjd, kLastMjd);
     const double fraction_s = 1e-9 * std::clamp(nanoseconds, 0, 999'999'999);
     return {static_cast<std::int32_t>(mjd), static_cast<double>(second_of_day) + fraction_s};
@@ -189,16 +190,18 @@ std::optional<UtcClockTime> parse_utc(std::string_view text) noexcept {
 
 std::string to_iso(const UtcClockTime& time, int decimals) {
     constexpr int kMostDecimals = 9;
-    const CivilTime civil = time.civil();
+    // Half a nanosecond forgives what a double cannot hold, such as sixty sixtieths of a second.
+    constexpr double kForgiven_s = 5e-10;
+    UtcClockTime shown = time;
+    shown.advance(kForgiven_s);
+    const CivilTime civil = shown.civil();
     const int places = std::clamp(decimals, 0, kMostDecimals);
-    const std::string head = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:", civil.year, civil.month, civil.day,
-                                         civil.hour, civil.minute);
     const int whole = static_cast<int>(civil.second);
-    if (places == 0) return fmt::format("{}{:02}Z", head, whole);
-    const double scale = std::pow(10.0, places);
-    // Half a nanosecond forgives the decimal fractions that a double of seconds of day cannot hold.
-    const double shown = std::min(std::floor((civil.second - whole) * scale + 5e-10 * scale), scale - 1.0);
-    return fmt::format("{}{:02}.{:0{}.0f}Z", head, whole, shown, places);
+    const std::string head = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", civil.year, civil.month,
+                                         civil.day, civil.hour, civil.minute, whole);
+    if (places == 0) return fmt::format("{}Z", head);
+    const double fraction = std::floor((civil.second - whole) * std::pow(10.0, places));
+    return fmt::format("{}.{:0{}.0f}Z", head, fraction, places);
 }
 
 double delta_t_s(double year) noexcept {
