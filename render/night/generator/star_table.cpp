@@ -51,13 +51,13 @@ std::vector<Row> read_table(const std::string& path, std::string_view heading) {
     std::ifstream file(path);
     std::string line;
     if (!std::getline(file, line)) throw std::runtime_error(path + ": cannot be read");
-    if (line != heading) throw std::runtime_error(path + ": the heading should be " + std::string(heading));
+    if (line != heading) throw std::runtime_error(fmt::format("{}: the heading should be {}", path, heading));
     const std::size_t columns = split(line).size();
     std::vector<Row> rows;
     while (std::getline(file, line)) {
         rows.push_back(split(line));
         if (rows.back().size() != columns)
-            throw std::runtime_error(path + ": wrong number of fields: " + line);
+            throw std::runtime_error(fmt::format("{}: wrong number of fields: {}", path, line));
     }
     return rows;
 }
