@@ -1,0 +1,107 @@
+#include "server/world/views.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/server/world/host_bench.h"
+
+namespace skyig::server::world {
+namespace {
+
+using protocol::cigi::ViewControl;
+using protocol::cigi::ViewDefinition;
+
+ViewControl yaw_control(int view_id, int group_id, float yaw_deg) {
+    ViewControl control;
+    control.view_id = static_cast<std::uint16_t>(view_id);
+    control.group_id = static_cast<std::uint8_t>(group_id);
+    control.yaw_enable = true;
+    control.yaw = yaw_deg;
+    return control;
+}
+
+TEST(Views, OnlyEnabledPartsReplaceThoseOfTheView) {
+    Views views(three_channels().channels);
+    ViewControl control = yaw_control(2, 0, 15.0F);
+    control.pitch = 40.0F;  // not enabled
+    control.z_enable = true;
+    control.z_offset = -1.5F;
+    EXPECT_EQ(views.apply(control), ViewResult::kDone);
+    EXPECT_EQ(views.all()[1].pose, (ViewPose{{0.0, 0.0, -1.5}, 15.0, 0.0, 0.0}));
+    EXPECT_EQ(views.all()[0].pose.yaw_deg, -60.0);
+    views.reset();
+    EXPECT_EQ(views.all()[1].pose, ViewPose{});
+}
+
+TEST(Views, GroupMovesAsAWholeAndLeavesItsViews) {
+    Views views(three_channels().channels);
+    EXPECT_EQ(views.apply(yaw_control(2, 9, 90.0F)), ViewResult::kDone);
+    EXPECT_EQ(views.group(9).yaw_deg, 90.0);
+    EXPECT_EQ(views.all()[1].pose.yaw_deg, 0.0);
+    EXPECT_EQ(views.group(0), ViewPose{});
+    views.reset();
+    EXPECT_EQ(views.group(9), ViewPose{});
+}
+
+TEST(Views, RefusesWhatItCannotDraw) {
+    Views views(three_channels().channels);
+    EXPECT_EQ(views.apply(yaw_control(44, 0, 15.0F)), ViewResult::kUnknownView);
+    ViewControl chase = yaw_control(2, 0, 15.0F);
+    chase.entity_id = 5;
+    EXPECT_EQ(views.apply(chase), ViewResult::kOtherEntity);
+    ViewControl far = yaw_control(2, 0, 15.0F);
+    far.x_enable = true;
+    far.x_offset = 1.0e30F;
+    EXPECT_EQ(views.apply(far), ViewResult::kFarAway);
+    EXPECT_EQ(views.all()[1].pose, ViewPose{});
+}
+
+TEST(Views, DefinitionReplacesEnabledHalfAngles) {
+    Views views(three_channels().channels);
+    ViewDefinition definition;
+    definition.view_id = 3;
+    definition.group_id = 2;
+    definition.left_enable = true;
+    definition.left = 5.0F;
+    definition.right = 99.0F;  // not enabled
+    EXPECT_EQ(views.apply(definition), ViewResult::kDone);
+    EXPECT_EQ(views.all()[2].half_angles, (HalfAngles{5.0, 30.0, -24.79, 24.79}));
+    EXPECT_EQ(views.all()[2].group_id, 2);
+}
+
+TEST(Views, DefinitionThatLeavesNoPictureKeepsTheFrustum) {
+    Views views(three_channels().channels);
+    const HalfAngles before = views.all()[2].half_angles;
+    ViewDefinition definition;
+    definition.view_id = 3;
+    definition.left_enable = true;
+    definition.left = 30.0F;  // equals the right side that stays
+    EXPECT_EQ(views.apply(definition), ViewResult::kBadFrustum);
+    definition.left = -89.0F;
+    EXPECT_EQ(views.apply(definition), ViewResult::kBadFrustum);
+    EXPECT_EQ(views.all()[2].half_angles, before);
+    definition.view_id = 44;
+    EXPECT_EQ(views.apply(definition), ViewResult::kUnknownView);
+}
+
+TEST(Views, MirrorAndParallelProjectionAreKeptButNotDrawn) {
+    Views views(three_channels().channels);
+    ViewDefinition definition;
+    definition.view_id = 1;
+    definition.mirror_mode = 1;
+    definition.top_enable = true;
+    definition.top = 10.0F;
+    EXPECT_EQ(views.apply(definition), ViewResult::kMirrored);
+    EXPECT_EQ(views.all()[0].mirror_mode, 1);
+    EXPECT_EQ(views.all()[0].half_angles.top_deg, 10.0);
+    definition.projection_type = true;
+    definition.top = 20.0F;
+    EXPECT_EQ(views.apply(definition), ViewResult::kOrthographic);
+    EXPECT_TRUE(views.all()[0].orthographic);
+    EXPECT_EQ(views.all()[0].half_angles.top_deg, 10.0);
+    views.reset();
+    EXPECT_EQ(views.all()[0].mirror_mode, 0);
+    EXPECT_FALSE(views.all()[0].orthographic);
+}
+
+}  // namespace
+}  // namespace skyig::server::world
