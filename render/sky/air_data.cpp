@@ -24,13 +24,14 @@ double ozone_density(const AirModel& model, double height_m) {
     return std::clamp(std::min(up, down), 0.0, 1.0);
 }
 
-// Half of 5 times the phase function's mean against P2: the moment chi_2.
-double second_moment(double g) {
+// Mean of the Legendre polynomial of that degree over the aerosol's phase function.
+double legendre_moment(double g, int degree) {
     static const auto rule = gauss_legendre<64>();
     double sum = 0.0;
     for (std::size_t i = 0; i < rule.node.size(); ++i) {
         const double c = rule.node[i];
-        sum += rule.weight[i] * cornette_shanks_phase(g, c) * (1.5 * c * c - 0.5);
+        sum += rule.weight[i] * cornette_shanks_phase(g, c) *
+               (degree == 2 ? 1.5 * c * c - 0.5 : (2.5 * c * c - 1.5) * c);
     }
     return 2.0 * std::numbers::pi * sum;
 }
@@ -118,8 +119,20 @@ void build_medium(const AirModel& model, AirData& data) {
     data.medium.albedo_over_pi = lanes_of(model.ground_albedo);
     for (float& albedo : data.medium.albedo_over_pi.v)
         albedo *= std::numbers::inv_pi_v<float>;
-    data.medium.chi_1 = static_cast<float>(cornette_shanks_mean_cosine(model.aerosol_g));
-    data.medium.chi_2 = static_cast<float>(second_moment(model.aerosol_g));
+    // Light scattered by a few degrees is as good as unscattered, except that it leaves the bright band at
+    // the horizon: a quarter of the peak beyond l = 2 (delta-M would take all of it) fits the truth best, A
+    // and B alike.
+    const double peak = 0.25 * legendre_moment(model.aerosol_g, 3);
+    const auto passed = static_cast<float>(peak);
+    data.medium.aerosol_diffuse_extinction = data.medium.aerosol_extinction;
+    data.medium.aerosol_diffuse_scattering = data.medium.aerosol_scattering;
+    for (int i = 0; i < kLanes; ++i) {
+        data.medium.aerosol_diffuse_extinction.v[i] -= passed * data.medium.aerosol_scattering.v[i];
+        data.medium.aerosol_diffuse_scattering.v[i] *= 1.0F - passed;
+    }
+    data.medium.chi_1 =
+        static_cast<float>((cornette_shanks_mean_cosine(model.aerosol_g) - peak) / (1.0 - peak));
+    data.medium.chi_2 = static_cast<float>((legendre_moment(model.aerosol_g, 2) - peak) / (1.0 - peak));
     data.log_molecules.resize(kProfileCells + 1);
     for (std::size_t i = 0; i <= kProfileCells; ++i) {
         data.log_molecules[i] = static_cast<float>(

@@ -45,14 +45,19 @@ inline constexpr int kDayNodes = 14;
 inline constexpr int kSineNodes = kNightNodes + 1 + kDayNodes;
 inline constexpr float kLowestSine = 0.42F;
 
+inline constexpr int kMaxSources = 64;
+
 /// Coefficients per metre by wavelength.
 struct Medium {
     Lanes rayleigh;
     Lanes aerosol_extinction;
     Lanes aerosol_scattering;
+    // The same less the forward peak of the phase function, which leaves diffuse light nearly as it was.
+    Lanes aerosol_diffuse_extinction;
+    Lanes aerosol_diffuse_scattering;
     Lanes ozone;
     Lanes albedo_over_pi;
-    float chi_1;
+    float chi_1;  // Legendre moments of the aerosol phase function without its peak
     float chi_2;
 };
 
@@ -95,9 +100,10 @@ struct Kernels {
     /// scatters, without its phase function, to `aerosol`.
     void (*add_first_order)(const Medium& medium, const ColumnTable& columns, const Path& path,
                             const Source& source, Lanes& light, Lanes& aerosol);
-    /// Adds what the light in `moments` becomes by one more scattering in air or ground.
+    /// Adds what the light in `moments` becomes by one more scattering in air or ground, for each of up to
+    /// kMaxSources sources around the same path.
     void (*add_higher_orders)(const Medium& medium, const MomentTable& moments, const Path& path,
-                              const Source& source, Lanes& light);
+                              const Source* sources, int count, Lanes* light);
     /// Transmittance towards a source; `above_sine` = sine of its elevation + sine of the dip, below 0 counts
     /// as 0.
     void (*transmit)(const Medium& medium, const ColumnTable& columns, float row, float above_sine,

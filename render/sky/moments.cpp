@@ -16,9 +16,9 @@ namespace skyig::render::sky {
 namespace {
 
 constexpr int kHalfSines = 8;  // view directions on either side of the local horizon
-constexpr int kFirstAzimuths = 8;
+constexpr int kFirstAzimuths = 6;
 constexpr int kLaterAzimuths = 4;
-constexpr int kGatherSteps = 14;
+constexpr int kGatherSteps = 16;
 constexpr float kLeastMean = 1e-30F;
 
 using NodeMoments = std::array<Lanes, kMoments>;
@@ -61,9 +61,13 @@ void add_radiance(const ViewSine& view, double x, double weight, const Lanes& li
 // One order of light around every node. `previous` null: light scattered once.
 class Gatherer {
   public:
-    Gatherer(const AirData& data, const MomentTable* previous) : data_(data), previous_(previous) {}
+    Gatherer(const AirData& data, const MomentTable* previous)
+        : data_(data),
+          previous_(previous),
+          azimuths_(previous == nullptr ? kFirstAzimuths : kLaterAzimuths) {}
 
     void gather(Order& order) {
+        const int batch = kMaxSources / azimuths_;
         for (int row = 0; row < kMomentRows; ++row) {
             const double height_m = data_.moment_row_height_m(row);
             for (const ViewSine& view : view_sines(data_.shell.dip_sine(height_m))) {
@@ -71,50 +75,75 @@ class Gatherer {
                 path.steps = steps_.data();
                 lay_path(data_, height_m, view.sine, view.side, kGatherSteps, path);
                 kernels().weigh(data_.medium, path);
-                for (int sine = 0; sine < kSineNodes; ++sine) {
-                    gather_azimuths(path, view, sine, row, order);
+                for (int first = 0; first < kSineNodes; first += batch) {
+                    const int count = std::min(batch, kSineNodes - first);
+                    place_sources(view, first, count);
+                    trace(path, count * azimuths_);
+                    collect(view, row, first, count, order);
                 }
             }
         }
     }
 
   private:
-    void gather_azimuths(const Path& path, const ViewSine& view, int sine, int row, Order& order) const {
-        const int azimuths = previous_ == nullptr ? kFirstAzimuths : kLaterAzimuths;
-        const double weight = view.weight / azimuths;
-        const double source = moment_sine(sine);
-        const double level = std::sqrt(std::max(0.0, 1.0 - source * source));
-        const double reach = std::sqrt(std::max(0.0, 1.0 - view.sine * view.sine));
-        const auto node = static_cast<std::size_t>(row * kSineNodes + sine);
-        for (int a = 0; a < azimuths; ++a) {
-            const double x = reach * std::cos(std::numbers::pi * (a + 0.5) / azimuths);
-            const Lanes light = radiance(path, source, view.sine * source + x * level);
-            add_radiance(view, x, weight, light, order.air[node]);
-            if (row != 0 || view.side == Side::kGround) continue;
-            const auto w = static_cast<float>(4.0 * std::numbers::pi * weight * view.sine);
-            for (int i = 0; i < kLanes; ++i)
-                order.ground[static_cast<std::size_t>(sine)].v[i] += w * light.v[i];
+    // Cosine of the view's azimuth from the source's, times its level part.
+    [[nodiscard]] double view_x(const ViewSine& view, int azimuth) const {
+        return std::sqrt(std::max(0.0, 1.0 - view.sine * view.sine)) *
+               std::cos(std::numbers::pi * (azimuth + 0.5) / azimuths_);
+    }
+
+    void place_sources(const ViewSine& view, int first, int count) {
+        Source* source = sources_.data();
+        for (int sine = first; sine < first + count; ++sine) {
+            const double up = moment_sine(sine);
+            const double level = std::sqrt(std::max(0.0, 1.0 - up * up));
+            for (int a = 0; a < azimuths_; ++a) {
+                const double cosine = view.sine * up + view_x(view, a) * level;
+                *source++ = {up, cosine, static_cast<float>(rayleigh_phase(cosine))};
+            }
         }
     }
 
-    Lanes radiance(const Path& path, double source_sine, double view_cosine) const {
-        const Source source{source_sine, view_cosine, static_cast<float>(rayleigh_phase(view_cosine))};
-        Lanes light{};
+    void trace(const Path& path, int count) {
+        light_.fill(Lanes{});
         if (previous_ != nullptr) {
-            kernels().add_higher_orders(data_.medium, *previous_, path, source, light);
-            return light;
+            kernels().add_higher_orders(data_.medium, *previous_, path, sources_.data(), count,
+                                        light_.data());
+            return;
         }
-        Lanes aerosol{};
-        kernels().add_first_order(data_.medium, data_.column_table(), path, source, light, aerosol);
-        const auto phase = static_cast<float>(cornette_shanks_phase(data_.model.aerosol_g, view_cosine));
-        for (int i = 0; i < kLanes; ++i)
-            light.v[i] += phase * aerosol.v[i];
-        return light;
+        for (std::size_t j = 0; j < static_cast<std::size_t>(count); ++j) {
+            Lanes aerosol{};
+            kernels().add_first_order(data_.medium, data_.column_table(), path, sources_[j], light_[j],
+                                      aerosol);
+            const auto phase =
+                static_cast<float>(cornette_shanks_phase(data_.model.aerosol_g, sources_[j].view_cosine));
+            for (int i = 0; i < kLanes; ++i)
+                light_[j].v[i] += phase * aerosol.v[i];
+        }
+    }
+
+    void collect(const ViewSine& view, int row, int first, int count, Order& order) const {
+        const double weight = view.weight / azimuths_;
+        const auto down = static_cast<float>(4.0 * std::numbers::pi * weight * view.sine);
+        const Lanes* light = light_.data();
+        for (int sine = first; sine < first + count; ++sine) {
+            for (int a = 0; a < azimuths_; ++a, ++light) {
+                add_radiance(view, view_x(view, a), weight, *light,
+                             order.air[static_cast<std::size_t>(row * kSineNodes + sine)]);
+                if (row != 0 || view.side == Side::kGround) continue;
+                Lanes& ground = order.ground[static_cast<std::size_t>(sine)];
+                for (int i = 0; i < kLanes; ++i)
+                    ground.v[i] += down * light->v[i];
+            }
+        }
     }
 
     const AirData& data_;
     const MomentTable* previous_;
+    int azimuths_;
     std::array<PathStep, kGatherSteps> steps_{};
+    std::array<Source, kMaxSources> sources_{};
+    std::array<Lanes, kMaxSources> light_{};
 };
 
 // The form in which the kernels read moments.

@@ -58,12 +58,21 @@ void fill_step(const Ray& ray, double from_m, double to_m, const Densities& from
     step.dip_cosine = static_cast<float>(ray.data.shell.dip_cosine(height_m));
 }
 
-// Steps between two distances, `low_m` being the end at the lower height: they crowd there, quadratically.
+// Long grazing paths need more steps than steep ones: half of them at least, all of them from the
+// length of a horizontal ray at the ground on.
+int steps_for(const Shell& shell, double length_m, int steps_most) {
+    const double longest_m = std::sqrt(shell.excess_m2(shell.top_height_m));
+    const double share = 0.5 + 0.5 * std::min(1.0, length_m / longest_m);
+    return std::clamp(static_cast<int>(share * steps_most), 4, steps_most);
+}
+
+// Steps between two distances, `low_m` being the end at the lower height: they crowd there, mostly
+// quadratically.
 void add_steps(const Ray& ray, double low_m, double high_m, int count, Path& path) {
     const bool rising = high_m >= low_m;
     const auto boundary_m = [&](int i) {
         const double s = static_cast<double>(rising ? i : count - i) / count;
-        return low_m + (high_m - low_m) * s * s;
+        return low_m + (high_m - low_m) * s * (0.15 + 0.85 * s);
     };
     double from_m = boundary_m(0);
     Densities from = ray.data.densities(ray.height_m(from_m));
@@ -95,7 +104,7 @@ bool inside_shell(const Shell& shell, double eye_height_m, double cosine, double
 
 }  // namespace
 
-void lay_path(const AirData& data, double eye_height_m, double cosine, Side side, int steps_wanted,
+void lay_path(const AirData& data, double eye_height_m, double cosine, Side side, int steps_most,
               Path& path) {
     path.count = 0;
     path.meets_ground = side == Side::kGround;
@@ -108,19 +117,21 @@ void lay_path(const AirData& data, double eye_height_m, double cosine, Side side
         const double ground_m = data.shell.distance_to_ground_m(eye_height_m, cosine);
         path.ground_eye_part = eye_radius_m / data.shell.ground_radius_m;
         path.ground_along_part = ground_m / data.shell.ground_radius_m;
-        if (ground_m > enter_m) add_steps(ray, ground_m, enter_m, steps_wanted, path);
+        if (ground_m <= enter_m) return;
+        add_steps(ray, ground_m, enter_m, steps_for(data.shell, ground_m - enter_m, steps_most), path);
         return;
     }
     if (!inside) return;
+    const int count = steps_for(data.shell, leave_m - enter_m, steps_most);
     const double low_m = std::max(enter_m, -eye_radius_m * cosine);
     if (low_m <= enter_m) {
-        add_steps(ray, enter_m, leave_m, steps_wanted, path);
+        add_steps(ray, enter_m, leave_m, count, path);
         return;
     }
     const double share = std::sqrt((low_m - enter_m) / (leave_m - enter_m));
-    const int before = std::clamp(static_cast<int>(share * steps_wanted * 0.7), 2, steps_wanted - 2);
+    const int before = std::clamp(static_cast<int>(share * count * 0.7), 2, count - 2);
     add_steps(ray, low_m, enter_m, before, path);
-    add_steps(ray, low_m, leave_m, steps_wanted - before, path);
+    add_steps(ray, low_m, leave_m, count - before, path);
 }
 
 }  // namespace skyig::render::sky

@@ -11,9 +11,8 @@ enum class Side { kSky, kGround };
 /// \param cosine of the ray to the vertical at the eye; at or below the horizon for Side::kGround, at or
 /// above it for
 ///        Side::kSky (rounding at the horizon itself is absorbed)
-/// \param steps_wanted  at most as many as `path.steps` holds; at least 4
+/// \param steps_most  at most as many as `path.steps` holds; at least 4
 /// Fills everything in `path` but the weights.
-void lay_path(const AirData& data, double eye_height_m, double cosine, Side side, int steps_wanted,
-              Path& path);
+void lay_path(const AirData& data, double eye_height_m, double cosine, Side side, int steps_most, Path& path);
 
 }  // namespace skyig::render::sky

@@ -122,13 +122,17 @@ struct SkyView::State {
     void place_rows() noexcept;
     void build_row(int row) noexcept;
     [[nodiscard]] double elevation_rad(Side side, int row) const noexcept;
-    [[nodiscard]] Node radiance(const Path& path, double view_cosine) const noexcept;
+    void march(const Path& path, int count) noexcept;
+    [[nodiscard]] Node node_of(const Lanes& all, const Lanes& hazy) const noexcept;
     [[nodiscard]] glm::vec3 look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept;
 
     SkyViewSize size;
     Grid sky;
     Grid ground;
     std::vector<PathStep> steps;
+    std::array<Source, kMaxSources> sources{};
+    std::array<Lanes, kMaxSources> light{};
+    std::array<Lanes, kMaxSources> aerosol{};
     std::optional<AirTables> tables;
     double eye_height_m = kLowestEyeM;
     double source_elevation_rad = 0.0;
@@ -169,22 +173,26 @@ double SkyView::State::elevation_rad(Side side, int row) const noexcept {
     return horizon_rad + (side == Side::kSky ? angle_rad : -angle_rad);
 }
 
-Node SkyView::State::radiance(const Path& path, double view_cosine) const noexcept {
-    const AirData& data = tables->data();
-    const Source source{source_sine, view_cosine, static_cast<float>(rayleigh_phase(view_cosine))};
-    Lanes light{};
-    Lanes aerosol{};
-    kernels().add_first_order(data.medium, data.column_table(), path, source, light, aerosol);
-    kernels().add_higher_orders(data.medium, data.moment_table(), path, source, light);
+Node SkyView::State::node_of(const Lanes& all, const Lanes& hazy) const noexcept {
     Node node{};
     for (std::size_t row = 0; row < 3; ++row) {
-        const Spectrum& weight = data.model.sunlight_xyz_lux[row];
+        const Spectrum& weight = tables->model().sunlight_xyz_lux[row];
         for (std::size_t i = 0; i < weight.size(); ++i) {
-            node[row] += weight[i] * light.v[i];
-            node[row + 4] += weight[i] * aerosol.v[i];
+            node[row] += weight[i] * all.v[i];
+            node[row + 4] += weight[i] * hazy.v[i];
         }
     }
     return node;
+}
+
+void SkyView::State::march(const Path& path, int count) noexcept {
+    const AirData& data = tables->data();
+    light.fill(Lanes{});
+    aerosol.fill(Lanes{});
+    for (std::size_t j = 0; j < static_cast<std::size_t>(count); ++j) {
+        kernels().add_first_order(data.medium, data.column_table(), path, sources[j], light[j], aerosol[j]);
+    }
+    kernels().add_higher_orders(data.medium, data.moment_table(), path, sources.data(), count, light.data());
 }
 
 void SkyView::State::build_row(int row) noexcept {
@@ -200,10 +208,20 @@ void SkyView::State::build_row(int row) noexcept {
     path.steps = steps.data();
     lay_path(data, eye_height_m, sine, side, size.steps, path);
     kernels().weigh(data.medium, path);
-    for (int column = 0; column < size.columns; ++column) {
-        const double azimuth = std::numbers::pi * column / (size.columns - 1);
-        const double view_cosine = sine * source_sine + cosine * source_cosine * std::cos(azimuth);
-        grid.at(line, column) = radiance(path, std::clamp(view_cosine, -1.0, 1.0));
+    for (int first = 0; first < size.columns; first += kMaxSources) {
+        const int count = std::min(kMaxSources, size.columns - first);
+        for (int j = 0; j < count; ++j) {
+            const double azimuth = std::numbers::pi * (first + j) / (size.columns - 1);
+            const double between =
+                std::clamp(sine * source_sine + cosine * source_cosine * std::cos(azimuth), -1.0, 1.0);
+            sources[static_cast<std::size_t>(j)] = {source_sine, between,
+                                                    static_cast<float>(rayleigh_phase(between))};
+        }
+        march(path, count);
+        for (int j = 0; j < count; ++j) {
+            const auto slot = static_cast<std::size_t>(j);
+            grid.at(line, first + j) = node_of(light[slot], aerosol[slot]);
+        }
     }
     grid.close_row(line);
 }

@@ -15,7 +15,7 @@ struct SkyViewSize {
     int sky_rows = 40;
     int ground_rows = 20;
     int columns = 33;
-    int steps = 32;
+    int steps = 48;  // of the longest rays
 
     friend bool operator==(const SkyViewSize&, const SkyViewSize&) = default;
 };
