@@ -206,8 +206,7 @@ void World::place_ownship(bool attached, const ephemeris::Geodetic& position, do
     if (attached) {
         ++counters_.ownship_attached;
         log_.limited("ownship attached", kRepeatAfter_s, Severity::kWarning,
-                     "host {} attaches the ownship to another entity: not supported, its last place is held",
-                     to_string(from_));
+                     "the ownship is attached to another entity: not supported, its last place is held");
         return;
     }
     if (!ephemeris::is_valid(position)) {

@@ -106,7 +106,7 @@ TEST(WorldPackets, OtherAndAttachedEntitiesDoNotMoveTheEye) {
     EXPECT_FALSE(bench.world.ownship().exists);
     EXPECT_EQ(bench.world.counters().other_entity, 1U);
     EXPECT_EQ(bench.world.counters().ownship_attached, 1U);
-    EXPECT_EQ(bench.lines_with("attaches the ownship"), 1U);
+    EXPECT_EQ(bench.lines_with("ownship is attached"), 1U);
 }
 
 TEST(WorldPackets, ImpossibleHeightsAreRefused) {
