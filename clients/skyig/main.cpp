@@ -1,0 +1,18 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <variant>
+
+#include "clients/skyig/host.h"
+#include "clients/skyig/options.h"
+#include "clients/skyig/shot.h"
+
+int main(int argc, char** argv) {
+    using namespace skyig::clients;
+    const Invocation invocation = read_command_line(argc, argv);
+    fmt::print("{}", invocation.output);
+    fmt::print(stderr, "{}", invocation.error);
+    if (const auto* host = std::get_if<HostOptions>(&invocation.options)) return run_host(*host);
+    if (const auto* shot = std::get_if<ShotOptions>(&invocation.options)) return run_shot(*shot);
+    return invocation.exit_status;
+}

@@ -1,0 +1,67 @@
+// What the verbs of skyig are asked to do, as plain values.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace skyig::clients {
+
+/// skyig host: fly a recorded flight at a daemon.
+struct HostOptions {
+    std::string flight_path;
+    /// UTC at the flight's start, ISO 8601; already checked.
+    std::string utc;
+    double rate_hz = 60.0;
+    /// "3.3" or "4.0"
+    std::string cigi = "3.3";
+    bool big_endian = false;
+    std::string to = "127.0.0.1:8004";
+    std::string listen = "127.0.0.1:8005";
+    /// Where in the flight to begin, seconds of its own clock; its first row if not given.
+    std::optional<double> start_s;
+    /// How long to fly; to the flight's end if not given.
+    std::optional<double> duration_s;
+    /// Turns one view by View Control.
+    std::optional<double> view_yaw_deg;
+    std::uint16_t view_id = 1;
+    std::optional<double> visibility_m;
+    /// How long to wait for a first answer.
+    double wait_s = 10.0;
+    bool json = false;
+};
+
+/// skyig shot: one still without a network.
+struct ShotOptions {
+    /// Settings to start from; the built-in ones with one channel if empty. What is given below comes before
+    /// them.
+    std::string config_path;
+    std::optional<double> latitude_deg;
+    std::optional<double> longitude_deg;
+    std::optional<double> height_m;
+    /// ISO 8601, already checked; empty = as the settings say.
+    std::string utc;
+    std::optional<double> heading_deg;
+    std::optional<double> pitch_deg;
+    std::optional<double> roll_deg;
+    std::optional<double> visibility_m;
+    /// Of the one channel without settings.
+    int width_px = 1280;
+    int height_px = 1024;
+    double fov_deg = 60.0;
+    std::string out_path;
+    bool json = false;
+};
+
+/// Either a verb's options, or text to print and a status to leave with.
+struct Invocation {
+    std::variant<std::monostate, HostOptions, ShotOptions> options;
+    int exit_status = 0;
+    std::string output;  ///< for stdout (help, version)
+    std::string error;   ///< for stderr, one line
+};
+
+[[nodiscard]] Invocation read_command_line(int argc, const char* const* argv);
+
+}  // namespace skyig::clients

@@ -1,0 +1,186 @@
+#include "server/frame_loop.h"
+
+#include <fmt/format.h>
+
+#include "server/endpoint_format.h"
+
+namespace skyig::server {
+
+namespace cigi = protocol::cigi;
+
+namespace {
+
+/// Frames that come late are told when they are more than this part of the frames in that time.
+constexpr double kToldLatePart = 0.01;
+constexpr double kWatchFor_s = 10.0;
+constexpr double kRepeatAfter_s = 60.0;
+
+std::string protocol_text(const cigi::Session& session) {
+    return fmt::format("{} {}-endian", session.version() == cigi::Version::k40 ? "4.0" : "3.3",
+                       session.host_order() == cigi::ByteOrder::kBig ? "big" : "little");
+}
+
+}  // namespace
+
+FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, std::uint64_t frame_limit,
+                     std::uint64_t image_every)
+    : config_(config),
+      parts_(parts),
+      frame_limit_(frame_limit),
+      image_every_(image_every),
+      pacer_(config.daemon.rate_hz),
+      answers_(config.host),
+      inbox_(parts.world, parts.log),
+      times_(config.channels.size()) {}
+
+void FrameLoop::run(const std::function<bool()>& stop) {
+    while (!stop() && (frame_limit_ == 0 || frame_number_ < frame_limit_))
+        run_frame();
+}
+
+void FrameLoop::run_frame() {
+    const FramePacer::Slot slot = pacer_.next(parts_.clock.monotonic_ns());
+    parts_.clock.sleep_until_ns(slot.start_ns);
+    const std::int64_t start_ns = parts_.clock.monotonic_ns();
+    if (frame_number_ == 0) first_start_ns_ = start_ns;
+    ++frame_number_;
+
+    answer_host(slot);
+    parts_.link.drain(inbox_);
+    parts_.world.advance(static_cast<double>(slot.slots) * pacer_.period_s());
+    draw(scenes_.build(parts_.world, frame_number_));
+    if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images();
+
+    last_end_ns_ = parts_.clock.monotonic_ns();
+    times_.frame().add(last_end_ns_ - start_ns);
+    watch(slot);
+}
+
+void FrameLoop::answer_host(const FramePacer::Slot& slot) {
+    const std::span<const std::byte> message =
+        answers_.open_frame(parts_.world.session(), slot.start_ns, slot.late);
+    const auto destination = answers_.destination(parts_.world.link());
+    if (!destination) return;
+    if (parts_.link.send(*destination, message)) {
+        ++start_of_frame_sent_;
+        return;
+    }
+    ++start_of_frame_failed_;
+    parts_.log.limited("answer not sent", kRepeatAfter_s, Severity::kWarning,
+                       "Start of Frame to {} not sent: the system did not take it", *destination);
+}
+
+void FrameLoop::draw(const render::Scene& scene) {
+    std::int64_t before_ns = parts_.clock.monotonic_ns();
+    const auto lap = [this, &before_ns](TimeHistogram& times) {
+        const std::int64_t now_ns = parts_.clock.monotonic_ns();
+        times.add(now_ns - before_ns);
+        before_ns = now_ns;
+    };
+    parts_.painter.prepare(scene);
+    lap(times_.shared());
+    for (std::size_t channel = 0; channel < config_.channels.size(); ++channel) {
+        parts_.painter.draw(channel);
+        lap(times_.channel(channel));
+    }
+}
+
+void FrameLoop::hand_out_images() {
+    ImageWriter::Frame* images = parts_.images->try_acquire();
+    if (images == nullptr) return;
+    images->number = frame_number_;
+    for (std::size_t channel = 0; channel < images->channels.size(); ++channel)
+        parts_.painter.read_back(channel, images->channels[channel]);
+    parts_.images->submit(images);
+}
+
+/// What goes wrong over many frames is told once a while, never once a frame.
+void FrameLoop::watch(const FramePacer::Slot& slot) {
+    if (slot.slots > 1) slots_left_out_ += slot.slots - 1;
+    ++watched_.frames;
+    if (slot.late) {
+        ++late_frames_;
+        ++watched_.late;
+    }
+    watched_.slots += slot.slots;
+    if (static_cast<double>(watched_.slots) * pacer_.period_s() < kWatchFor_s) return;
+    tell_late_frames();
+    tell_dropped_datagrams();
+    watched_ = {};
+}
+
+void FrameLoop::tell_late_frames() {
+    if (static_cast<double>(watched_.late) <= kToldLatePart * static_cast<double>(watched_.frames)) return;
+    parts_.log.limited(
+        "late frames", kRepeatAfter_s, Severity::kWarning,
+        "{} of the last {} frames were late: a frame takes {:.1f} ms (median), {:g} Hz leaves {:.1f} ms",
+        watched_.late, watched_.frames, times_.frame().quantile_ms(0.5), config_.daemon.rate_hz,
+        pacer_.period_s() * 1e3);
+}
+
+void FrameLoop::tell_dropped_datagrams() {
+    const protocol::transport::UdpCounters now = parts_.link.counters();
+    if (now.not_allowed > told_link_.not_allowed) {
+        parts_.log.limited("sender not allowed", kRepeatAfter_s, Severity::kWarning,
+                           "{} datagrams dropped: their senders are not in host.allow",
+                           now.not_allowed - told_link_.not_allowed);
+    }
+    if (now.ring_full > told_link_.ring_full) {
+        parts_.log.limited("ring full", kRepeatAfter_s, Severity::kWarning,
+                           "{} datagrams dropped: they came faster than frames take them",
+                           now.ring_full - told_link_.ring_full);
+    }
+    told_link_ = now;
+}
+
+RunReport FrameLoop::report() const {
+    RunReport report;
+    report.version = SKYIG_VERSION;
+    report.renderer = parts_.painter.description();
+    report.gl_errors = parts_.painter.gl_errors();
+    report.rate_hz = config_.daemon.rate_hz;
+    report.elapsed_s = static_cast<double>(last_end_ns_ - first_start_ns_) * 1e-9;
+    report.frames = frame_number_;
+    report.late_frames = late_frames_;
+    report.slots_left_out = slots_left_out_;
+    report.times.push_back(time_row("shared", times_.shared()));
+    for (std::size_t i = 0; i < config_.channels.size(); ++i)
+        report.times.push_back(time_row(config_.channels[i].name, times_.channel(i)));
+    report.times.push_back(time_row("frame", times_.frame()));
+    report.start_of_frame_sent = start_of_frame_sent_;
+    report.start_of_frame_failed = start_of_frame_failed_;
+    report_host(report);
+    if (parts_.images != nullptr) {
+        const ImageWriter::Counts images = parts_.images->counts();
+        report.images_written = images.written;
+        report.images_failed = images.failed;
+        report.image_frames_skipped = images.skipped;
+    }
+    return report;
+}
+
+void FrameLoop::report_host(RunReport& report) const {
+    const world::Link& link = parts_.world.link();
+    if (link.state != world::LinkState::kNever) {
+        report.host = fmt::to_string(link.host);
+        report.host_protocol = protocol_text(parts_.world.session());
+    }
+    report.host_losses = link.losses;
+    report.datagrams = inbox_.datagrams();
+    report.host_frames_behind_median = inbox_.frames_behind().quantile(0.5);
+    report.host_frames_behind_largest = inbox_.frames_behind().largest();
+
+    const cigi::Counters& counters = inbox_.counters();
+    for (std::size_t kind = 0; kind < cigi::kHostPacketKinds; ++kind)
+        report.packets.push_back({std::string(cigi::packet_name(kind)), counters.packets[kind]});
+    for (std::size_t i = 0; i < cigi::kCounts; ++i)
+        report.rejects.push_back(
+            {std::string(cigi::count_name(static_cast<cigi::Count>(i))), counters.counts[i]});
+    for (const world::NamedCounter& counter : world::kCounterNames)
+        report.rejects.push_back({std::string(counter.name), parts_.world.counters().*counter.value});
+    const protocol::transport::UdpCounters received = parts_.link.counters();
+    report.rejects.push_back({"not_allowed", received.not_allowed});
+    report.rejects.push_back({"ring_full", received.ring_full});
+}
+
+}  // namespace skyig::server

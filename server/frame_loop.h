@@ -1,0 +1,87 @@
+// One frame after the other: answer the host, take what it has sent, move the world, draw, write pictures.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "config/config.h"
+#include "server/answers.h"
+#include "server/clock.h"
+#include "server/frame_pacer.h"
+#include "server/host_link.h"
+#include "server/image_writer.h"
+#include "server/inbox.h"
+#include "server/log.h"
+#include "server/painter.h"
+#include "server/report.h"
+#include "server/scene_builder.h"
+#include "server/world/world.h"
+
+namespace skyig::server {
+
+/// What the loop works with; all must outlive it.
+struct FrameLoopParts {
+    Clock& clock;
+    Log& log;
+    HostLink& link;
+    world::World& world;
+    Painter& painter;
+    /// Null: no pictures are written.
+    ImageWriter* images = nullptr;
+};
+
+/// Neither a host nor a disk can hold it up. A frame allocates nothing in steady state.
+class FrameLoop {
+  public:
+    /// \param frame_limit  frames to run, 0 = no limit
+    /// \param image_every  images of each n-th frame are written, at least 1
+    FrameLoop(const config::Config& config, const FrameLoopParts& parts, std::uint64_t frame_limit,
+              std::uint64_t image_every);
+
+    /// Runs frames until the limit is reached or `stop` says so (asked once a frame).
+    void run(const std::function<bool()>& stop);
+
+    /// Waits for the next frame's start and runs it.
+    void run_frame();
+
+    /// Everything counted so far; the images' counts are final once the writer has finished.
+    [[nodiscard]] RunReport report() const;
+
+  private:
+    void answer_host(const FramePacer::Slot& slot);
+    void draw(const render::Scene& scene);
+    void hand_out_images();
+    void watch(const FramePacer::Slot& slot);
+    void tell_late_frames();
+    void tell_dropped_datagrams();
+    void report_host(RunReport& report) const;
+
+    const config::Config& config_;
+    FrameLoopParts parts_;
+    std::uint64_t frame_limit_;
+    std::uint64_t image_every_;
+
+    FramePacer pacer_;
+    Answers answers_;
+    Inbox inbox_;
+    SceneBuilder scenes_;
+    FrameTimes times_;
+
+    std::uint64_t frame_number_ = 0;
+    std::uint64_t late_frames_ = 0;
+    std::uint64_t slots_left_out_ = 0;
+    std::uint64_t start_of_frame_sent_ = 0;
+    std::uint64_t start_of_frame_failed_ = 0;
+    std::int64_t first_start_ns_ = 0;
+    std::int64_t last_end_ns_ = 0;
+    /// Since the last look at what goes wrong.
+    struct Watched {
+        std::uint64_t frames = 0;
+        std::uint64_t slots = 0;
+        std::uint64_t late = 0;
+    };
+    Watched watched_;
+    protocol::transport::UdpCounters told_link_;
+};
+
+}  // namespace skyig::server

@@ -1,0 +1,25 @@
+#include "server/gl_painter.h"
+
+#include <utility>
+
+namespace skyig::server {
+
+// A debug context costs nothing that can be measured here, and every GL error is then counted.
+GlPainter::GlPainter(std::vector<render::Channel> channels, const render::DisplaySettings& display)
+    : context_(render::gl::HeadlessContext::create(true)), renderer_(std::move(channels), display) {}
+
+void GlPainter::prepare(const render::Scene& scene) {
+    const render::FrameReport& report = renderer_.prepare(scene);
+    gl_errors_ = report.gl_errors;
+    adaptation_cd_m2_ = report.adaptation_cd_m2;
+}
+
+void GlPainter::draw(std::size_t channel) {
+    renderer_.draw(channel);
+}
+
+void GlPainter::read_back(std::size_t channel, std::span<std::byte> rgba) {
+    renderer_.read_back(channel, rgba);
+}
+
+}  // namespace skyig::server

@@ -1,0 +1,33 @@
+// The Painter of the programs: the renderer on an OpenGL context without a window.
+#pragma once
+
+#include <vector>
+
+#include "render/gl/headless_context.h"
+#include "render/renderer.h"
+#include "server/painter.h"
+
+namespace skyig::server {
+
+class GlPainter final : public Painter {
+  public:
+    /// Its context belongs to the thread that makes it.
+    /// \throws std::runtime_error with one line when there is no display, no OpenGL 4.5 or no memory for the
+    /// channels
+    GlPainter(std::vector<render::Channel> channels, const render::DisplaySettings& display);
+
+    void prepare(const render::Scene& scene) override;
+    void draw(std::size_t channel) override;
+    void read_back(std::size_t channel, std::span<std::byte> rgba) override;
+    [[nodiscard]] std::uint64_t gl_errors() const override { return gl_errors_; }
+    [[nodiscard]] double adaptation_cd_m2() const override { return adaptation_cd_m2_; }
+    [[nodiscard]] std::string description() const override { return context_.description(); }
+
+  private:
+    render::gl::HeadlessContext context_;
+    render::Renderer renderer_;
+    std::uint64_t gl_errors_ = 0;
+    double adaptation_cd_m2_ = 0.0;
+};
+
+}  // namespace skyig::server

@@ -1,0 +1,73 @@
+#include "server/inbox.h"
+
+#include <concepts>
+
+#include "protocol/cigi/message.h"
+#include "server/endpoint_format.h"
+
+namespace skyig::server {
+
+namespace cigi = protocol::cigi;
+namespace transport = protocol::transport;
+
+namespace {
+
+constexpr double kRepeatAfter_s = 10.0;
+
+}  // namespace
+
+/// Hands the packets of one message to the world and sees what passes by.
+class Inbox::Handler {
+  public:
+    Handler(Inbox& inbox, const transport::Endpoint& from) : inbox_(inbox), from_(from) {
+        inbox_.world_.begin_message(from);
+    }
+
+    template <class P>
+    requires std::invocable<world::World&, const P&> ||
+        std::invocable<world::World&, const P&, const cigi::PacketInfo&>
+    void operator()(const P& packet, const cigi::PacketInfo& info) {
+        if constexpr (std::invocable<world::World&, const P&, const cigi::PacketInfo&>) {
+            inbox_.world_(packet, info);
+        } else {
+            inbox_.world_(packet);
+        }
+        if constexpr (std::same_as<P, cigi::IgControl>) note_lag(packet);
+    }
+
+    void refused(const cigi::RefusedPacket& packet, const cigi::PacketInfo& info) {
+        inbox_.log_.limited(
+            "packet refused", kRepeatAfter_s, Severity::kWarning,
+            "host {}: {} at byte {} of a message ignored: {} is {}", from_, cigi::packet_name(packet.kind),
+            info.offset, packet.field,
+            packet.reason == cigi::Count::kNonfinite ? "not a finite number" : "out of range");
+    }
+
+  private:
+    /// A host that has not heard of us yet echoes 0: no lag can be told from that.
+    void note_lag(const cigi::IgControl& control) {
+        if (control.last_ig_frame_number == 0 || !inbox_.world_.from_obeyed_host()) return;
+        inbox_.frames_behind_.add(inbox_.world_.session().round_trip_frames());
+    }
+
+    Inbox& inbox_;
+    transport::Endpoint from_;
+};
+
+void Inbox::take(const transport::Datagram& datagram) {
+    ++datagrams_;
+    const cigi::MessageSummary summary =
+        cigi::decode_host_message(datagram.bytes, Handler(*this, datagram.from), counters_);
+    if (!summary.fault) return;
+    if (summary.accepted) {
+        log_.limited("message cut short", kRepeatAfter_s, Severity::kWarning,
+                     "host {}: message ignored from byte {} on: {}", datagram.from, summary.offset,
+                     cigi::count_text(*summary.fault));
+    } else {
+        log_.limited("datagram dropped", kRepeatAfter_s, Severity::kWarning,
+                     "datagram of {} bytes from {} dropped: {}", datagram.bytes.size(), datagram.from,
+                     cigi::count_text(*summary.fault));
+    }
+}
+
+}  // namespace skyig::server

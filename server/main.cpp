@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "config/config.h"
+#include "server/daemon.h"
+
+namespace {
+
+using skyig::server::DaemonOptions;
+
+constexpr int kDone = 0;
+constexpr int kWrongUsage = 2;
+
+void declare(CLI::App& app, DaemonOptions& options) {
+    app.add_option("--config", options.config_path, "the site's settings (TOML)")
+        ->required()
+        ->type_name("FILE");
+    app.add_flag("--check", options.check, "check the settings, say all that is wrong, and end");
+    app.add_flag("--headless")->description("no windows, whatever the settings say");
+    app.add_option("--frames", options.frames, "end after N frames (0: run until SIGINT or SIGTERM)")
+        ->type_name("N");
+    CLI::Option* out =
+        app.add_option("--out", options.out_directory, "write the channels' images here as PNG")
+            ->type_name("DIR");
+    app.add_option("--out-every", options.out_every, "write the images of every N-th frame only (1)")
+        ->check(CLI::Range(1, 1'000'000'000))
+        ->needs(out)
+        ->type_name("N");
+    app.add_option("--report", options.report_path, "write the report of the run here as JSON")
+        ->type_name("FILE");
+    app.set_version_flag("--version", std::string("skyigd " SKYIG_VERSION));
+    app.footer("Exit status: 0 done, 1 the work failed, 2 wrong usage or settings.");
+}
+
+/// The options, or the status to leave with after the text has been printed.
+std::optional<DaemonOptions> read_command_line(int argc, char** argv, int& exit_status) {
+    CLI::App app("skyigd: the sky of a flight simulator, served to a CIGI host.", "skyigd");
+    DaemonOptions options;
+    declare(app, options);
+    try {
+        app.parse(argc, argv);
+        return options;
+    } catch (const CLI::CallForHelp&) {
+        fmt::print("{}", app.help());
+    } catch (const CLI::CallForVersion& version) {
+        fmt::print("{}\n", version.what());
+    } catch (const CLI::ParseError& error) {
+        fmt::print(stderr, "skyigd: {} (skyigd --help tells the options)\n", error.what());
+        exit_status = kWrongUsage;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    int exit_status = kDone;
+    const std::optional<DaemonOptions> options = read_command_line(argc, argv, exit_status);
+    if (!options) return exit_status;
+
+    const skyig::config::LoadResult loaded = skyig::config::load_config(options->config_path);
+    for (const skyig::config::ConfigError& error : loaded.errors)
+        fmt::print(stderr, "{}\n", skyig::config::to_text(error));
+    if (!loaded) return kWrongUsage;
+    if (options->check) {
+        fmt::print("{}\n", skyig::config::describe(*loaded.config));
+        return kDone;
+    }
+    return skyig::server::run_daemon(*options, *loaded.config);
+}

@@ -1,0 +1,35 @@
+// What the frame loop needs of whoever turns scenes into pictures; tests give it one without GL.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "render/scene.h"
+
+namespace skyig::server {
+
+class Painter {
+  public:
+    Painter() = default;
+    Painter(const Painter&) = delete;
+    Painter& operator=(const Painter&) = delete;
+    virtual ~Painter() = default;
+
+    /// The work that all channels of this frame share. Never throws, allocates nothing in steady state.
+    virtual void prepare(const render::Scene& scene) = 0;
+    /// Draws one channel of the prepared frame; its pixels are finished on return.
+    virtual void draw(std::size_t channel) = 0;
+    /// RGBA, top row first, width * height * 4 bytes.
+    virtual void read_back(std::size_t channel, std::span<std::byte> rgba) = 0;
+
+    /// GL errors since start-up, as of the last prepare().
+    [[nodiscard]] virtual std::uint64_t gl_errors() const = 0;
+    /// One luminance that all channels of the last frame are adapted to, cd/m2.
+    [[nodiscard]] virtual double adaptation_cd_m2() const = 0;
+    /// What draws, for people: "4.5 (Core Profile) Mesa 22.3.6, llvmpipe ...".
+    [[nodiscard]] virtual std::string description() const = 0;
+};
+
+}  // namespace skyig::server

@@ -1,0 +1,13 @@
+# The frame loop (no GL) and the daemon (GL).
+skyig_library(server_loop
+  SOURCES answers.cpp frame_loop.cpp frame_pacer.cpp from_config.cpp image_writer.cpp inbox.cpp report.cpp
+          stop_signal.cpp time_histogram.cpp
+  DEPS server server_world server_ephemeris config protocol_cigi protocol_transport render_scene fmt::fmt
+       Threads::Threads)
+target_compile_definitions(server_loop PUBLIC SKYIG_VERSION="${PROJECT_VERSION}")
+
+if(SKYIG_GL)
+  skyig_library(server_painter SOURCES gl_painter.cpp DEPS server_loop render render_gl)
+  add_executable(skyigd main.cpp daemon.cpp)
+  target_link_libraries(skyigd PRIVATE skyig_build server_painter render_output)
+endif()

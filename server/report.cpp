@@ -1,0 +1,113 @@
+#include "server/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace skyig::server {
+
+void FramesBehind::add(std::uint32_t frames) noexcept {
+    ++bins_[std::min(frames, kLargest)];
+    ++count_;
+    largest_ = std::max(largest_, std::min(frames, kLargest));
+}
+
+std::uint32_t FramesBehind::quantile(double q) const noexcept {
+    const double wanted = std::clamp(q, 0.0, 1.0) * static_cast<double>(count_);
+    std::uint64_t seen = 0;
+    for (std::uint32_t frames = 0; frames <= kLargest; ++frames) {
+        seen += bins_[frames];
+        if (seen > 0 && static_cast<double>(seen) >= wanted) return frames;
+    }
+    return 0;
+}
+
+TimeRow time_row(std::string_view name, const TimeHistogram& times) {
+    return {std::string(name), times.quantile_ms(0.5), times.quantile_ms(0.95), times.largest_ms()};
+}
+
+namespace {
+
+std::string counts_text(const std::vector<NamedCount>& counts) {
+    std::string text;
+    for (const NamedCount& count : counts) {
+        if (count.count == 0) continue;
+        fmt::format_to(std::back_inserter(text), "{}{} {}", text.empty() ? "" : ", ", count.name,
+                       count.count);
+    }
+    return text.empty() ? "none" : text;
+}
+
+nlohmann::ordered_json counts_json(const std::vector<NamedCount>& counts) {
+    auto json = nlohmann::ordered_json::object();
+    for (const NamedCount& count : counts)
+        json[count.name] = count.count;
+    return json;
+}
+
+}  // namespace
+
+std::string to_table(const RunReport& report) {
+    std::string text;
+    const auto out = std::back_inserter(text);
+    fmt::format_to(out, "frames          {} in {:.1f} s at {:g} Hz: {} late, {} left out\n", report.frames,
+                   report.elapsed_s, report.rate_hz, report.late_frames, report.slots_left_out);
+    fmt::format_to(out, "{:<32} {:>10} {:>10} {:>10}\n", "times in ms", "median", "p95", "largest");
+    for (const TimeRow& row : report.times) {
+        fmt::format_to(out, "  {:<30} {:>10.2f} {:>10.2f} {:>10.2f}\n", row.name, row.median_ms, row.p95_ms,
+                       row.largest_ms);
+    }
+    if (report.host.empty()) {
+        fmt::format_to(out, "host            none heard\n");
+    } else {
+        fmt::format_to(out,
+                       "host            {}, CIGI {}, {} frames behind (median; largest {}), lost {} times\n",
+                       report.host, report.host_protocol, report.host_frames_behind_median,
+                       report.host_frames_behind_largest, report.host_losses);
+    }
+    fmt::format_to(out, "datagrams       {}\n", report.datagrams);
+    fmt::format_to(out, "packets         {}\n", counts_text(report.packets));
+    fmt::format_to(out, "rejected        {}\n", counts_text(report.rejects));
+    fmt::format_to(out, "Start of Frame  {} sent, {} failed\n", report.start_of_frame_sent,
+                   report.start_of_frame_failed);
+    fmt::format_to(out, "images          {} written, {} failed, {} frames skipped\n", report.images_written,
+                   report.images_failed, report.image_frames_skipped);
+    if (report.gl_errors > 0) fmt::format_to(out, "GL errors       {}\n", report.gl_errors);
+    return text;
+}
+
+std::string to_json(const RunReport& report) {
+    nlohmann::ordered_json json;
+    json["version"] = report.version;
+    json["renderer"] = report.renderer;
+    json["rate_hz"] = report.rate_hz;
+    json["elapsed_s"] = report.elapsed_s;
+    json["frames"] = report.frames;
+    json["late_frames"] = report.late_frames;
+    json["slots_left_out"] = report.slots_left_out;
+    json["times"] = nlohmann::ordered_json::array();
+    for (const TimeRow& row : report.times) {
+        json["times"].push_back({{"name", row.name},
+                                 {"median_ms", row.median_ms},
+                                 {"p95_ms", row.p95_ms},
+                                 {"largest_ms", row.largest_ms}});
+    }
+    json["host"] = {{"address", report.host},
+                    {"protocol", report.host_protocol},
+                    {"losses", report.host_losses},
+                    {"frames_behind_median", report.host_frames_behind_median},
+                    {"frames_behind_largest", report.host_frames_behind_largest}};
+    json["datagrams"] = report.datagrams;
+    json["packets"] = counts_json(report.packets);
+    json["rejects"] = counts_json(report.rejects);
+    json["start_of_frame"] = {{"sent", report.start_of_frame_sent}, {"failed", report.start_of_frame_failed}};
+    json["images"] = {{"written", report.images_written},
+                      {"failed", report.images_failed},
+                      {"frames_skipped", report.image_frames_skipped}};
+    json["gl_errors"] = report.gl_errors;
+    return json.dump(2) + '\n';
+}
+
+}  // namespace skyig::server

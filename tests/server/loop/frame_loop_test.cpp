@@ -1,0 +1,369 @@
+#include "server/frame_loop.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "protocol/cigi/message.h"
+#include "server/from_config.h"
+#include "tests/server/loop/allocation_count.h"
+
+namespace skyig::server {
+namespace {
+
+namespace cigi = protocol::cigi;
+namespace transport = protocol::transport;
+using ::testing::HasSubstr;
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr transport::Endpoint kHost{0x7F000001, 8005};
+constexpr transport::Endpoint kOther{0x7F000001, 9999};
+
+/// Draws nothing; each piece of a frame takes as long as it is told.
+class FakePainter final : public Painter {
+  public:
+    explicit FakePainter(ManualClock& clock) : clock_(clock) {}
+
+    void prepare(const render::Scene& scene) override {
+        last_scene = scene;
+        clock_.advance_ns(prepare_ns);
+    }
+    void draw(std::size_t /*channel*/) override { clock_.advance_ns(draw_ns); }
+    void read_back(std::size_t channel, std::span<std::byte> rgba) override {
+        std::fill(rgba.begin(), rgba.end(), static_cast<std::byte>(channel + 1));
+    }
+    std::uint64_t gl_errors() const override { return 0; }
+    double adaptation_cd_m2() const override { return 100.0; }
+    std::string description() const override { return "fake"; }
+
+    render::Scene last_scene;
+    std::int64_t prepare_ns = 1 * kMs;
+    std::int64_t draw_ns = 2 * kMs;
+
+  private:
+    ManualClock& clock_;
+};
+
+class FakeLink final : public HostLink {
+  public:
+    void drain(DatagramTaker& taker) override {
+        for (std::size_t i = 0; i < waiting_count; ++i)
+            taker.take({waiting_from, 0, std::span(waiting[i])});
+        waiting_count = 0;
+    }
+    bool send(const transport::Endpoint& to, std::span<const std::byte> bytes) override {
+        last_to = to;
+        last_bytes = bytes.size();
+        std::copy(bytes.begin(), bytes.end(), last_message.begin());
+        ++sends;
+        return sending_works;
+    }
+    transport::UdpCounters counters() const override { return received; }
+
+    void put(const transport::Endpoint& from, std::span<const std::byte> bytes) {
+        waiting_from = from;
+        waiting[waiting_count++].assign(bytes.begin(), bytes.end());
+    }
+    [[nodiscard]] std::span<const std::byte> last() const {
+        return std::span(last_message).first(last_bytes);
+    }
+
+    std::vector<std::vector<std::byte>> waiting{4, std::vector<std::byte>(256)};
+    std::size_t waiting_count = 0;
+    transport::Endpoint waiting_from;
+    transport::Endpoint last_to;
+    std::array<std::byte, 256> last_message{};
+    std::size_t last_bytes = 0;
+    int sends = 0;
+    bool sending_works = true;
+    transport::UdpCounters received;
+};
+
+/// A host's message: IG Control and, in Operate, the ownship.
+class Message {
+  public:
+    Message(cigi::Version version, cigi::IgMode mode, std::uint32_t frame, std::uint32_t echo = 0)
+        : writer_(buffer_, version, cigi::ByteOrder::kBig) {
+        cigi::IgControl control;
+        control.minor_version = version == cigi::Version::k33 ? 3 : 0;
+        control.ig_mode = mode;
+        control.host_frame_number = frame;
+        control.last_ig_frame_number = echo;
+        EXPECT_TRUE(writer_.add(control));
+    }
+    // The writer points into the buffer beside it.
+    Message(const Message&) = delete;
+    Message& operator=(const Message&) = delete;
+
+    Message& at(double latitude_deg) {
+        cigi::EntityControl control;
+        control.entity_state = cigi::EntityState::kActive;
+        control.lat_x = latitude_deg;
+        control.lon_y = 7.0;
+        control.alt_z = 500.0;
+        EXPECT_TRUE(writer_.add(control));
+        return *this;
+    }
+    [[nodiscard]] std::span<const std::byte> bytes() const { return writer_.bytes(); }
+
+  private:
+    std::array<std::byte, 256> buffer_{};
+    cigi::MessageWriter writer_;
+};
+
+class FrameLoopTest : public ::testing::Test {
+  protected:
+    FrameLoopTest() {
+        config_.daemon.rate_hz = 100.0;
+        config_.start.utc = config::UtcDateTime{2026, 6, 21, 12, 0, 0.0};
+        config_.channels.front().width_px = 8;
+        config_.channels.front().height_px = 4;
+    }
+
+    FrameLoop& loop(std::uint64_t frames = 0, ImageWriter* images = nullptr, std::uint64_t every = 1) {
+        world_ = std::make_unique<world::World>(config_, start_time(config_.start, clock_), log_);
+        loop_ = std::make_unique<FrameLoop>(
+            config_, FrameLoopParts{clock_, log_, link_, *world_, painter_, images}, frames, every);
+        return *loop_;
+    }
+
+    cigi::StartOfFrame last_answer(cigi::Version version) const {
+        struct {
+            cigi::StartOfFrame start_of_frame;
+            void operator()(const cigi::StartOfFrame& packet) { start_of_frame = packet; }
+        } handler;
+        cigi::Counters counters;
+        const cigi::MessageSummary summary = cigi::decode_ig_message(link_.last(), handler, counters);
+        EXPECT_TRUE(summary.accepted);
+        EXPECT_EQ(summary.version, version);
+        return handler.start_of_frame;
+    }
+
+    static std::uint64_t count(const std::vector<NamedCount>& counts, const std::string& name) {
+        for (const NamedCount& count : counts) {
+            if (count.name == name) return count.count;
+        }
+        ADD_FAILURE() << "no count " << name;
+        return 0;
+    }
+
+    std::vector<std::string> lines_;
+    config::Config config_ = config::default_config();
+    ManualClock clock_{5'000'000'000};
+    Log log_{clock_, [this](Severity, std::string_view line) { lines_.emplace_back(line); }};
+    FakeLink link_;
+    FakePainter painter_{clock_};
+    std::unique_ptr<world::World> world_;
+    std::unique_ptr<FrameLoop> loop_;
+};
+
+TEST_F(FrameLoopTest, RunsTheFramesAskedForWithoutAnyHost) {
+    loop(30).run([] { return false; });
+    const RunReport report = loop_->report();
+    EXPECT_EQ(report.frames, 30U);
+    EXPECT_EQ(report.late_frames, 0U);
+    EXPECT_NEAR(report.elapsed_s, 0.293, 1e-9);
+    EXPECT_EQ(report.start_of_frame_sent, 30U);
+    EXPECT_EQ(link_.last_to, (transport::Endpoint{0x7F000001, 8005}));
+    EXPECT_TRUE(report.host.empty());
+    const cigi::StartOfFrame answer = last_answer(cigi::Version::k33);
+    EXPECT_EQ(answer.ig_frame_number, 30U);
+    EXPECT_EQ(answer.ig_mode, cigi::IgMode::kStandby);
+    EXPECT_EQ(painter_.last_scene.frame_number, 30U);
+    EXPECT_NEAR(painter_.last_scene.time_s, 0.29, 1e-9);
+}
+
+TEST_F(FrameLoopTest, StopsWhenAsked) {
+    int asked = 0;
+    loop().run([&asked] { return ++asked > 5; });
+    EXPECT_EQ(loop_->report().frames, 5U);
+}
+
+TEST_F(FrameLoopTest, TimesSharedWorkChannelsAndFrame) {
+    loop(20).run([] { return false; });
+    const RunReport report = loop_->report();
+    ASSERT_EQ(report.times.size(), 3U);
+    EXPECT_EQ(report.times[0].name, "shared");
+    EXPECT_NEAR(report.times[0].median_ms, 1.0, 0.01);
+    EXPECT_EQ(report.times[1].name, "centre");
+    EXPECT_NEAR(report.times[1].p95_ms, 2.0, 0.02);
+    EXPECT_EQ(report.times[2].name, "frame");
+    EXPECT_NEAR(report.times[2].largest_ms, 3.0, 0.03);
+}
+
+TEST_F(FrameLoopTest, CountsLateFramesAndSaysSoOnceAWhile) {
+    painter_.draw_ns = 14 * kMs;
+    loop(4000).run([] { return false; });
+    const RunReport report = loop_->report();
+    EXPECT_EQ(report.late_frames, 3999U);
+    // 15 ms of work on a 10 ms grid: every second slot passes by.
+    EXPECT_NEAR(static_cast<double>(report.slots_left_out), 2000.0, 2.0);
+    EXPECT_NEAR(painter_.last_scene.time_s, 60.0, 0.1);
+    ASSERT_EQ(lines_.size(), 1U);
+    EXPECT_THAT(lines_[0], HasSubstr("frames were late: a frame takes 15."));
+    EXPECT_THAT(lines_[0], HasSubstr("100 Hz leaves 10.0 ms"));
+}
+
+TEST_F(FrameLoopTest, AnswersInTheHostsVersionAndMovesTheOwnship) {
+    config_.host.cigi = {4, 0};
+    loop();
+    loop_->run_frame();
+    last_answer(cigi::Version::k40);
+    link_.put(kHost, Message(cigi::Version::k33, cigi::IgMode::kOperate, 7).at(45.0).bytes());
+    loop_->run_frame();
+    loop_->run_frame();
+    const cigi::StartOfFrame answer = last_answer(cigi::Version::k33);
+    EXPECT_EQ(answer.last_host_frame_number, 7U);
+    EXPECT_EQ(answer.ig_mode, cigi::IgMode::kOperate);
+    EXPECT_NEAR(painter_.last_scene.eye.latitude_deg, 45.0, 1e-9);
+    const RunReport report = loop_->report();
+    EXPECT_EQ(report.host, "127.0.0.1:8005");
+    EXPECT_EQ(report.host_protocol, "3.3 big-endian");
+    EXPECT_EQ(count(report.packets, "ig_control"), 1U);
+    EXPECT_EQ(count(report.packets, "entity_control"), 1U);
+}
+
+TEST_F(FrameLoopTest, AnswersTheSenderWhereTheSettingsSaySo) {
+    config_.host.reply_to.reset();
+    loop().run_frame();
+    EXPECT_EQ(link_.sends, 0);
+    link_.put(kOther, Message(cigi::Version::k33, cigi::IgMode::kOperate, 1).bytes());
+    loop_->run_frame();
+    loop_->run_frame();
+    EXPECT_EQ(link_.last_to, kOther);
+    EXPECT_EQ(loop_->report().start_of_frame_sent, 1U);
+}
+
+TEST_F(FrameLoopTest, TellsHowManyFramesTheHostIsBehind) {
+    loop();
+    for (std::uint32_t i = 1; i <= 20; ++i) {
+        // The host answers the frame before the last: two frames behind what is sent when it is read.
+        link_.put(kHost, Message(cigi::Version::k33, cigi::IgMode::kOperate, i, i > 2 ? i - 2 : 0).bytes());
+        loop_->run_frame();
+    }
+    EXPECT_EQ(loop_->report().host_frames_behind_median, 2U);
+    EXPECT_EQ(loop_->report().host_frames_behind_largest, 2U);
+}
+
+TEST_F(FrameLoopTest, GoesOnThroughGarbageWithOneLine) {
+    loop();
+    const std::vector<std::byte> garbage(40, std::byte{0xA5});
+    const std::vector<std::byte> crumb(3, std::byte{1});
+    for (int i = 0; i < 50; ++i) {
+        link_.put(kOther, garbage);
+        link_.put(kOther, crumb);
+        loop_->run_frame();
+    }
+    const RunReport report = loop_->report();
+    EXPECT_EQ(report.frames, 50U);
+    EXPECT_EQ(count(report.rejects, "first_packet"), 50U);
+    EXPECT_EQ(count(report.rejects, "short"), 50U);
+    EXPECT_EQ(report.datagrams, 100U);
+    ASSERT_EQ(lines_.size(), 1U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[0], HasSubstr("datagram of 40 bytes from 127.0.0.1:9999 dropped: "));
+}
+
+TEST_F(FrameLoopTest, SaysWhichPacketWasRefusedAndKeepsTheOthers) {
+    loop();
+    link_.put(kHost, Message(cigi::Version::k33, cigi::IgMode::kOperate, 1).at(91.0).at(30.0).bytes());
+    loop_->run_frame();
+    EXPECT_EQ(count(loop_->report().rejects, "out_of_range"), 1U);
+    EXPECT_NEAR(painter_.last_scene.eye.latitude_deg, 30.0, 1e-9);
+    EXPECT_THAT(lines_, ::testing::Contains(HasSubstr(
+                            "entity_control at byte 24 of a message ignored: lat_x is out of range")));
+}
+
+TEST_F(FrameLoopTest, SecondHostAndSilenceAreToldOnceAndThePictureGoesOn) {
+    loop();
+    link_.put(kHost, Message(cigi::Version::k33, cigi::IgMode::kOperate, 1).at(45.0).bytes());
+    loop_->run_frame();
+    for (std::uint32_t i = 1; i <= 20; ++i) {
+        link_.put(kOther, Message(cigi::Version::k40, cigi::IgMode::kStandby, i).bytes());
+        loop_->run_frame();
+    }
+    EXPECT_EQ(last_answer(cigi::Version::k33).last_host_frame_number, 1U);
+    for (int i = 0; i < 200; ++i)
+        loop_->run_frame();
+    const RunReport report = loop_->report();
+    EXPECT_EQ(count(report.rejects, "second_host"), 20U);
+    EXPECT_EQ(report.host_losses, 1U);
+    EXPECT_NEAR(painter_.last_scene.eye.latitude_deg, 45.0, 1e-9);
+    const auto lines_with = [this](const char* part) {
+        return std::count_if(lines_.begin(), lines_.end(), [part](const std::string& line) {
+            return line.find(part) != std::string::npos;
+        });
+    };
+    EXPECT_EQ(lines_with("second host"), 1);
+    EXPECT_EQ(lines_with("lost"), 1);
+    EXPECT_LE(lines_.size(), 4U) << ::testing::PrintToString(lines_);
+}
+
+TEST_F(FrameLoopTest, CountsAnswersThatCouldNotBeSent) {
+    link_.sending_works = false;
+    loop(10).run([] { return false; });
+    EXPECT_EQ(loop_->report().start_of_frame_failed, 10U);
+    EXPECT_EQ(loop_->report().start_of_frame_sent, 0U);
+    EXPECT_EQ(lines_.size(), 1U);
+}
+
+TEST_F(FrameLoopTest, TellsOfDatagramsThatTheReceiverDropped) {
+    loop();
+    link_.received.not_allowed = 12;
+    link_.received.ring_full = 3;
+    loop_->run([this] { return loop_->report().frames >= 1100; });
+    EXPECT_EQ(count(loop_->report().rejects, "not_allowed"), 12U);
+    EXPECT_EQ(count(loop_->report().rejects, "ring_full"), 3U);
+    ASSERT_EQ(lines_.size(), 2U);
+    EXPECT_THAT(lines_[0], HasSubstr("12 datagrams dropped: their senders are not in host.allow"));
+}
+
+TEST_F(FrameLoopTest, HandsEveryNthFrameToTheImageWriter) {
+    std::vector<std::string> paths;
+    ImageWriter images(
+        "out", render_channels(config_), 8,
+        [&](const std::string& path, const render::Channel&, std::span<const std::byte> rgba, std::string&) {
+            EXPECT_EQ(rgba.size(), 8U * 4 * 4);
+            EXPECT_EQ(rgba[5], std::byte{1});
+            paths.push_back(path);
+            return true;
+        });
+    loop(20, &images, 5).run([] { return false; });
+    images.finish();
+    EXPECT_EQ(paths, (std::vector<std::string>{"out/centre_000005.png", "out/centre_000010.png",
+                                               "out/centre_000015.png", "out/centre_000020.png"}));
+    EXPECT_EQ(loop_->report().images_written, 4U);
+}
+
+TEST_F(FrameLoopTest, AllocatesNothingInSteadyState) {
+    ImageWriter images("out", render_channels(config_), 2,
+                       [](const std::string&, const render::Channel&, std::span<const std::byte>,
+                          std::string&) { return true; });
+    loop();
+    std::deque<Message> messages;
+    for (std::uint32_t i = 1; i <= 1100; ++i)
+        messages.emplace_back(cigi::Version::k33, cigi::IgMode::kOperate, i, i > 1 ? i - 1 : 0)
+            .at(45.0 + i * 1e-5);
+    const auto run = [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) {
+            link_.put(kHost, messages[i].bytes());
+            loop_->run_frame();
+        }
+    };
+    run(0, 100);
+    const std::uint64_t before = allocations_of_this_thread();
+    run(100, 1100);
+    const std::uint64_t allocations = allocations_of_this_thread() - before;
+    std::printf("allocations in 1000 frames: %llu\n", static_cast<unsigned long long>(allocations));
+    EXPECT_EQ(allocations, 0U);
+    EXPECT_NEAR(painter_.last_scene.eye.latitude_deg, 45.011, 1e-6);
+}
+
+}  // namespace
+}  // namespace skyig::server
