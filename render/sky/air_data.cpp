@@ -92,12 +92,12 @@ double AirData::column_row(double height_m) const noexcept {
 }
 
 double AirData::moment_row(double height_m) const noexcept {
-    return std::sqrt(std::clamp(height_m / shell.top_height_m, 0.0, 1.0)) * (kMomentRows - 1);
+    return std::cbrt(std::clamp(height_m / shell.top_height_m, 0.0, 1.0)) * (kMomentRows - 1);
 }
 
 double AirData::moment_row_height_m(int row) const noexcept {
     const double part = static_cast<double>(row) / (kMomentRows - 1);
-    return shell.top_height_m * part * part;
+    return shell.top_height_m * part * part * part;
 }
 
 double moment_sine(int node) noexcept {

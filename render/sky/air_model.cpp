@@ -187,6 +187,10 @@ AirModel air_model(const Air& air) {
     const double aerosol_per_m = std::max(0.0, total_per_m - per_m * rayleigh_depth(550.0));
     const double exponent = angstrom_exponent(visibility_m);
     const auto extinction = [&](double nm) { return aerosol_per_m * std::pow(nm / 550.0, -exponent); };
+    // Mist is shallow, haze fills the boundary layer: this holds the aerosol's vertical depth below about
+    // 0.9.
+    constexpr double kHazeVisibilityM = 4000.0;
+    model.aerosol_scale_height_m *= std::min(1.0, visibility_m / kHazeVisibilityM);
     constexpr double kSingleScatteringAlbedo = 0.94;  // continental background
     model.aerosol_extinction_per_m = spectrum_of(extinction);
     model.aerosol_scattering_per_m =

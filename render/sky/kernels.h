@@ -29,7 +29,7 @@ struct ColumnTable {
     int angles;
 };
 
-/// Light of one or more orders over height (rows, quadratic) and sine of the source's elevation (see
+/// Light of one or more orders over height (rows, cubic) and sine of the source's elevation (see
 /// sine_place()): ln m0 and the other five moments over m0, kMoments * kLanes floats a node; and the
 /// irradiance of the ground, ln E.
 struct MomentTable {

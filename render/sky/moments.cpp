@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "render/sky/path.h"
@@ -198,22 +199,45 @@ void extend_by_tail(const Order& before_last, Order& last) {
     }
 }
 
+// Whether light of this order still is a good part of the whole anywhere by day: only then the tail is worth
+// replacing by one more gathering. Thick haze needs it, since orders first sink towards the ground and only
+// then die out.
+bool matters(const Order& order, const Order& sum) {
+    constexpr float kSmallPart = 0.06F;
+    for (int row = 0; row < kMomentRows; ++row) {
+        for (int sine = kNightNodes + 1; sine < kSineNodes; ++sine) {
+            const auto node = static_cast<std::size_t>(row * kSineNodes + sine);
+            for (int i = 0; i < kLanes; ++i) {
+                if (order.air[node][0].v[i] > kSmallPart * sum.air[node][0].v[i]) return true;
+            }
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 void build_moments(AirData& data) {
+    constexpr int kFewestOrders = 3;
+    constexpr int kMostOrders = 12;
     data.moments.assign(std::size_t{kMomentRows} * kSineNodes * kMoments * kLanes, 0.0F);
     data.log_ground.assign(std::size_t{kSineNodes} * kLanes, 0.0F);
-    std::array<Order, 3> orders;
-    Gatherer(data, nullptr).gather(orders[0]);
-    for (std::size_t n = 1; n < orders.size(); ++n) {
-        tabulate(orders[n - 1], data.moments, data.log_ground);
+    Order sum;
+    Order before;
+    Order last;
+    Gatherer(data, nullptr).gather(last);
+    for (int count = 2; count <= kMostOrders; ++count) {
+        add_order(last, sum);
+        tabulate(last, data.moments, data.log_ground);
         const MomentTable previous = data.moment_table();
-        Gatherer(data, &previous).gather(orders[n]);
+        std::swap(before, last);
+        last = Order{};
+        Gatherer(data, &previous).gather(last);
+        if (count >= kFewestOrders && !matters(last, sum)) break;
     }
-    extend_by_tail(orders[1], orders[2]);
-    add_order(orders[1], orders[0]);
-    add_order(orders[2], orders[0]);
-    tabulate(orders[0], data.moments, data.log_ground);
+    extend_by_tail(before, last);
+    add_order(last, sum);
+    tabulate(sum, data.moments, data.log_ground);
 }
 
 }  // namespace skyig::render::sky

@@ -66,13 +66,27 @@ int steps_for(const Shell& shell, double length_m, int steps_most) {
     return std::clamp(static_cast<int>(share * steps_most), 4, steps_most);
 }
 
-// Steps between two distances, `low_m` being the end at the lower height: they crowd there, mostly
-// quadratically.
+// Steps crowd at the low end as s^p: the first one is to be shorter than the free path of light and than the
+// stretch over which the aerosol thins out there.
+double crowding(const Ray& ray, double low_m, double length_m, int count) {
+    const AirModel& model = ray.data.model;
+    const double low_height_m = ray.height_m(low_m);
+    const double radius_m = ray.data.shell.ground_radius_m + low_height_m;
+    const double steepness =
+        std::abs((ray.data.shell.ground_radius_m + ray.eye_height_m) * ray.cosine + low_m) / radius_m +
+        std::sqrt(0.5 * model.aerosol_scale_height_m / radius_m);
+    const double free_path_m = 1.0 / std::max(depth_per_m(ray.data, ray.data.densities(low_height_m)), 1e-9);
+    const double first_m = 0.3 * std::min(free_path_m, model.aerosol_scale_height_m / steepness);
+    return std::clamp(std::log(length_m / first_m) / std::log(static_cast<double>(count)), 1.8, 4.0);
+}
+
+// Steps between two distances, `low_m` being the end at the lower height.
 void add_steps(const Ray& ray, double low_m, double high_m, int count, Path& path) {
     const bool rising = high_m >= low_m;
+    const double power = crowding(ray, low_m, std::abs(high_m - low_m), count);
     const auto boundary_m = [&](int i) {
         const double s = static_cast<double>(rising ? i : count - i) / count;
-        return low_m + (high_m - low_m) * s * (0.15 + 0.85 * s);
+        return low_m + (high_m - low_m) * std::pow(s, power);
     };
     double from_m = boundary_m(0);
     Densities from = ray.data.densities(ray.height_m(from_m));
