@@ -20,7 +20,7 @@ namespace skyig::protocol::transport {
 struct UdpOptions {
     Endpoint listen;
     /// Addresses that may send, any port. Empty: 127.0.0.0/8 only.
-    std::vector<Ipv4> allowed;
+    std::vector<Ipv4> allowed{};
     /// Room for datagrams that wait for the consumer; brought to a power of two, 256 KiB at least.
     std::size_t ring_bytes = std::size_t{4} << 20U;
 };
