@@ -67,11 +67,11 @@ void Dome::lay_out(const DomeLayout& layout) {
 
     std::array<double, kSkyRows> sky{};
     place_by_density(sky, horizon, 0.5 * kPi, [&](double e) {
-        return 1.0 + 0.25 * peak(e - horizon, 0.004) + 0.25 * peak(e - std::max(source, horizon), 0.03);
+        return 1.0 + 0.35 * peak(e - horizon, 0.002) + 0.25 * peak(e - std::max(source, horizon), 0.03);
     });
     std::array<double, kGroundRows> ground{};
     place_by_density(ground, -0.5 * kPi, horizon,
-                     [&](double e) { return 0.3 + 0.25 * peak(e - horizon, 0.004); });
+                     [&](double e) { return 0.3 + 0.5 * peak(e - horizon, 0.002); });
 
     const double half_edge = 0.5 * layout.edge_rad;
     for (std::size_t i = 0; i < kGroundRows; ++i)

@@ -34,7 +34,7 @@ class Dome {
   public:
     static constexpr int kColumns = 112;
     static constexpr int kSkyRows = 64;
-    static constexpr int kGroundRows = 26;
+    static constexpr int kGroundRows = 40;
 
     Dome();
 

@@ -20,8 +20,12 @@ namespace skyig::render {
 
 namespace {
 
-// Points whose centre lies outside the picture by less than half a footprint still show.
-constexpr int kStarGuard_px = 4;
+// Points whose centre lies outside the picture by less than half a footprint still show, also where the
+// frustum's edge spreads the footprint over more pixels.
+constexpr int kStarGuard_px = 16;
+constexpr double kStarSigma_px = 0.7;
+
+constexpr double kZenith_rad = 1.5707;
 
 // A shift of adaptation smaller than this moves no pixel by half a display code.
 constexpr double kAdaptationStep = 0.002;
@@ -62,9 +66,10 @@ class StarPass {
           mesh_({3, 3, 3}, field_.capacity()),
           tone_(program_, false),
           clip_(program_.uniform("u_clip_from_enu")),
-          viewport_(program_.uniform("u_viewport_px")),
-          guard_(program_.uniform("u_guard_px")),
-          pixel_area_(program_.uniform("u_pixel_area")),
+          view_(program_.uniform("u_view_from_enu")),
+          plane_origin_(program_.uniform("u_plane_origin")),
+          plane_step_(program_.uniform("u_plane_step")),
+          sigma_(program_.uniform("u_sigma_rad")),
           point_gain_(program_.uniform("u_point_gain")) {}
 
     void prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light,
@@ -81,15 +86,15 @@ class StarPass {
         const double width = channel.width_px + 2.0 * kStarGuard_px;
         const double height = channel.height_px + 2.0 * kStarGuard_px;
         const ImagePlane p = image_plane(view.frustum);
+        const glm::dvec2 step{(p.right - p.left) / channel.width_px, (p.top - p.bottom) / channel.height_px};
         program_.use();
         program_.set(clip_, glm::mat4{clip_from_view(view.frustum, width / channel.width_px,
                                                      height / channel.height_px) *
                                       glm::dmat4{view.view_from_enu}});
-        program_.set(viewport_, glm::vec2{glm::dvec2{width, height}});
-        program_.set(guard_, static_cast<float>(kStarGuard_px));
-        program_.set(pixel_area_,
-                     static_cast<float>((p.right - p.left) * (p.top - p.bottom) /
-                                        (static_cast<double>(channel.width_px) * channel.height_px)));
+        program_.set(view_, glm::mat4{glm::dmat4{view.view_from_enu}});
+        program_.set(plane_origin_, glm::vec2{glm::dvec2{p.left, p.bottom}});
+        program_.set(plane_step_, glm::vec2{step});
+        program_.set(sigma_, static_cast<float>(kStarSigma_px * pixel_angle_rad(channel, view.frustum)));
         mesh_.draw_points(field_.stars().size());
     }
 
@@ -100,7 +105,7 @@ class StarPass {
     gl::Program program_;
     gl::Mesh mesh_;
     ToneUniforms tone_;
-    int clip_, viewport_, guard_, pixel_area_, point_gain_;
+    int clip_, view_, plane_origin_, plane_step_, sigma_, point_gain_;
 };
 
 }  // namespace
@@ -159,12 +164,12 @@ void Renderer::Impl::adapt() {
     for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
         const eye::ProbeDirection& probe = eye::probe_directions()[i];
         luminance[i] = static_cast<double>(shaders32::luminance_709(
-            light.rgb_cd_m2(probe.elevation_rad, probe.azimuth_rad, Side::kByElevation)));
+            light.rgb_cd_m2(std::min(light.horizon_elevation_rad + probe.above_horizon_rad, kZenith_rad),
+                            probe.azimuth_rad, Side::kByElevation)));
     }
     report.adaptation_cd_m2 =
         adaptation.update(eye::adaptation_target_cd_m2(luminance), scene.time_s, display);
     tone = eye::tone_parameters(display, report.adaptation_cd_m2);
-    constexpr double kZenith_rad = 1.5707;
     zenith_cd_m2 =
         static_cast<double>(shaders32::luminance_709(light.rgb_cd_m2(kZenith_rad, 0.0, Side::kSky)));
 }

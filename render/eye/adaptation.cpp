@@ -11,7 +11,6 @@ namespace {
 constexpr std::array<double, 7> kElevations_deg{-10.0, -3.0, 3.0, 10.0, 20.0, 35.0, 60.0};
 constexpr std::size_t kAzimuths = kProbeCount / kElevations_deg.size();
 constexpr double kFloor_cd_m2 = 1e-5;
-constexpr double kBrighterParts = 0.84;
 
 std::array<ProbeDirection, kProbeCount> make_directions() {
     std::array<ProbeDirection, kProbeCount> out{};
@@ -33,10 +32,15 @@ const std::array<ProbeDirection, kProbeCount>& probe_directions() noexcept {
 }
 
 double adaptation_target_cd_m2(const std::array<double, kProbeCount>& luminance_cd_m2) noexcept {
+    double sum_of_logs = 0.0;
     double sum = 0.0;
-    for (const double value : luminance_cd_m2)
-        sum += std::log10(std::max(value, 0.0) + kFloor_cd_m2);
-    return std::pow(10.0, sum / static_cast<double>(kProbeCount) + kBrighterParts);
+    for (const double value : luminance_cd_m2) {
+        const double luminance = std::max(value, 0.0);
+        sum_of_logs += std::log10(luminance + kFloor_cd_m2);
+        sum += luminance;
+    }
+    constexpr auto kCount = static_cast<double>(kProbeCount);
+    return std::max(std::pow(10.0, sum_of_logs / kCount), sum / kCount / 3.0);
 }
 
 double Adaptation::update(double target_cd_m2, double time_s, const DisplaySettings& display) noexcept {

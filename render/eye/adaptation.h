@@ -8,9 +8,9 @@
 
 namespace skyig::render::eye {
 
-/// A direction whose luminance takes part in adaptation: elevation above the horizontal, azimuth from north.
+/// A direction whose luminance takes part in adaptation: angle above the visible horizon, azimuth from north.
 struct ProbeDirection {
-    double elevation_rad = 0.0;
+    double above_horizon_rad = 0.0;
     double azimuth_rad = 0.0;
 };
 

@@ -37,9 +37,14 @@ double log_threshold_rods(double l) {
     return std::pow(0.405 * l + 1.6, 2.18) - 2.86;
 }
 
-ToneCurve hybrid(double log_world, double log_display) {
+// 0 at 0.01 cd/m2 and below, 1 at 1 cd/m2 and above.
+double day_share(double log_world) {
     const double t = std::clamp((log_world + 2.0) / 2.0, 0.0, 1.0);
-    const double day = t * t * (3.0 - 2.0 * t);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+ToneCurve hybrid(double log_world, double log_display) {
+    const double day = day_share(log_world);
     const double most_sensitive = std::min(log_threshold_cones(log_world), log_threshold_rods(log_world));
     const ToneCurve night{log_threshold_cones(log_display) - most_sensitive, 1.0};
     const ToneCurve bright = tumblin(log_world, log_display);
@@ -58,14 +63,26 @@ ToneCurve tone_curve(const DisplaySettings& display, double adaptation_cd_m2) no
     return hybrid(log_world, std::log10(std::max(display.adaptation_luminance_cd_m2, 0.1)));
 }
 
+double highlight_room(double adaptation_cd_m2) noexcept {
+    // Chosen by looking at dawn, noon, dusk and 12 km: less burns the horizon out, more dims the zenith.
+    constexpr double kDayRoom = 0.55;
+    const double t =
+        std::clamp((std::log10(std::max(adaptation_cd_m2, kDarkest_cd_m2)) + 3.0) / 3.0, 0.0, 1.0);
+    return kDayRoom * t * t * (3.0 - 2.0 * t);
+}
+
 double point_gain(const DisplaySettings& display, double adaptation_cd_m2) noexcept {
+    const double adaptation = std::max(adaptation_cd_m2, kDarkest_cd_m2);
     const double display_term = 1.219 + std::pow(0.5 * display.max_luminance_cd_m2, 0.4);
-    const double world_term = 1.219 + std::pow(std::max(adaptation_cd_m2, kDarkest_cd_m2), 0.4);
-    return std::pow(display_term / world_term, 2.5);
+    const double ward = std::pow(display_term / (1.219 + std::pow(adaptation, 0.4)), 2.5);
+    const ToneCurve curve = tone_curve(display, adaptation);
+    const double field = std::pow(10.0, curve.p + (curve.q - 1.0) * std::log10(adaptation));
+    return display.tone == ToneOperator::kLinear ? field : std::sqrt(ward * field);
 }
 
 shaders64::ToneParameters tone_parameters(const DisplaySettings& display, double adaptation_cd_m2) noexcept {
-    const ToneCurve curve = tone_curve(display, adaptation_cd_m2);
+    ToneCurve curve = tone_curve(display, adaptation_cd_m2);
+    if (display.tone == ToneOperator::kHybrid) curve.p -= highlight_room(adaptation_cd_m2);
     shaders64::ToneParameters tone{};
     tone.log2_gain = curve.p / std::numbers::ln2 * std::numbers::ln10;
     tone.exponent = curve.q;

@@ -17,11 +17,17 @@ struct ToneCurve {
 /// 18 % of white.
 [[nodiscard]] ToneCurve tone_curve(const DisplaySettings& display, double adaptation_cd_m2) noexcept;
 
-/// Gain of point sources (Ward 1994): keeps stars at their threshold contrast without the rods' full gain,
-/// which would show every star of the fourth magnitude as white. Display cd/m2 per world cd/m2.
+/// Gain of point sources, display cd/m2 per world cd/m2: between that of a field adapted to itself, which by
+/// night shows every star of the fourth magnitude as white, and Ward's (1994), which leaves the sixth below a
+/// display code: their geometric mean, chosen by looking.
 [[nodiscard]] double point_gain(const DisplaySettings& display, double adaptation_cd_m2) noexcept;
 
-/// All that the shaders need, in the precision of the GPU and in double.
+/// log10 of the room that is left on the display for what is brighter than the log-average of the scene: by
+/// day the average is shown this much darker than a uniform field would be; at 0.01 cd/m2 and below there is
+/// none, thresholds match.
+[[nodiscard]] double highlight_room(double adaptation_cd_m2) noexcept;
+
+/// All that the shaders need, in the precision of the GPU and in double: tone_curve() less highlight_room().
 [[nodiscard]] shaders64::ToneParameters tone_parameters(const DisplaySettings& display,
                                                         double adaptation_cd_m2) noexcept;
 [[nodiscard]] shaders32::ToneParameters single_precision(const shaders64::ToneParameters& tone) noexcept;

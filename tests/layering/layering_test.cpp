@@ -47,12 +47,15 @@ std::vector<SourceFile> read_sources() {
     return files;
 }
 
-std::string first_folder(const std::string& path) { return path.substr(0, path.find('/')); }
+std::string first_folder(const std::string& path) {
+    return path.substr(0, path.find('/'));
+}
 
 std::vector<std::string> includes_of(const std::string& text) {
     static const std::regex kInclude(R"re(^\s*#\s*include\s*[<"]([^>"]+)[>"])re", std::regex::multiline);
     std::vector<std::string> out;
-    for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) out.push_back((*it)[1]);
+    for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it)
+        out.push_back((*it)[1]);
     return out;
 }
 
@@ -65,7 +68,8 @@ std::string without_comments(const std::string& text) {
 std::string broken_rule(const std::string& path, const std::string& include) {
     const std::string from = first_folder(path);
     const std::string to = first_folder(include);
-    const bool ours = std::find(kRooms.begin(), kRooms.end(), to) != kRooms.end() && include.find('/') != std::string::npos;
+    const bool ours =
+        std::find(kRooms.begin(), kRooms.end(), to) != kRooms.end() && include.find('/') != std::string::npos;
     if (ours && to != from && !kAllowed.at(from).contains(to)) return from + " may not include " + to;
     if (to == "tests") return "nothing outside tests may include tests";
     if (to == "epoxy" && !path.starts_with("render/gl/")) return "only render/gl may include epoxy";
@@ -104,8 +108,10 @@ TEST(Layering, OnlyClocksAndSocketsAskForTheTime) {
         std::smatch match;
         const std::string code = without_comments(file.text);
         // Asking the one Clock that is handed in is what everyone should do.
-        const std::string asked = std::regex_replace(code, std::regex(R"((clock_?|clock\(\))(\.|->)\w*now\w*\s*\(\))"), "");
-        EXPECT_FALSE(std::regex_search(asked, match, now)) << file.path << " asks for the time by " << match.str();
+        const std::string asked =
+            std::regex_replace(code, std::regex(R"((clock_?|clock\(\))(\.|->)\w*now\w*\s*\(\))"), "");
+        EXPECT_FALSE(std::regex_search(asked, match, now))
+            << file.path << " asks for the time by " << match.str();
     }
 }
 

@@ -38,15 +38,28 @@ SKYIG_INLINE rvec3 night_coloured(rvec3 rgb, real photopic) {
 SKYIG_INLINE rvec3 display_linear(rvec3 rgb_cd_m2, ToneParameters tone) {
     real luminance = luminance_709(rgb_cd_m2);
     if (!(luminance > real(1e-12))) return rvec3(real(0.0));
+    if (luminance > real(1e12)) luminance = real(1e12);
     real gain = exp2(tone.log2_gain + (tone.exponent - real(1.0)) * log2(luminance));
     real photopic = max(tone.photopic, photopic_share(luminance));
     rvec3 rgb = night_coloured(inside_gamut(rgb_cd_m2, luminance), photopic);
     return rgb * (gain * tone.inv_display_max);
 }
 
+// What is brighter than the display can show keeps its hue and goes to white: a shoulder on the largest component from
+// 0.7 of full white on, and a share of white that grows with what the shoulder takes away.
+SKYIG_INLINE rvec3 highlights(rvec3 display) {
+    real largest = max(display.x, max(display.y, display.z));
+    if (!(largest > real(0.7))) return max(display, rvec3(real(0.0)));
+    real kept = real(1.0) - real(0.3) * exp2((real(0.7) - largest) * real(4.8089834696));
+    real share = kept / largest;
+    real white = (real(1.0) - share) * (real(1.0) - share);
+    rvec3 scaled = display * share;
+    return scaled + (rvec3(kept) - scaled) * white;
+}
+
 // Display linear -> display code in 0..1.
 SKYIG_INLINE rvec3 encoded(rvec3 display, ToneParameters tone) {
-    rvec3 v = clamp(display, rvec3(real(0.0)), rvec3(real(1.0)));
+    rvec3 v = clamp(highlights(display), rvec3(real(0.0)), rvec3(real(1.0)));
     if (tone.encode_power > real(0.0)) return pow(v, rvec3(tone.encode_power));
     rvec3 low = v * real(12.92);
     rvec3 high = pow(max(v, rvec3(real(1e-6))), rvec3(real(1.0) / real(2.4))) * real(1.055) - rvec3(real(0.055));

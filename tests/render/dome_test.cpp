@@ -1,0 +1,120 @@
+// The dome without GL: what interpolation between its vertices costs in display codes, and that its shape
+// holds.
+#include "render/dome.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "render/eye/tone_curve.h"
+#include "render/light_tables.h"
+#include "tests/render/scenes.h"
+
+namespace skyig::render {
+namespace {
+
+using tests::kDegree;
+
+// Colour of the flat triangle that a direction pierces, as the rasteriser interpolates it; false if none is
+// hit.
+bool interpolate(const Dome& dome, const glm::dvec3& direction, glm::dvec3& colour) {
+    const auto vertices = dome.vertices();
+    const auto indices = dome.indices();
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        const glm::dvec3 a{vertices[indices[i]].direction};
+        const glm::dvec3 b{vertices[indices[i + 1]].direction};
+        const glm::dvec3 c{vertices[indices[i + 2]].direction};
+        const glm::dmat3 corners{a, b, c};
+        const double determinant = glm::determinant(corners);
+        if (std::abs(determinant) < 1e-14) continue;
+        const glm::dvec3 w = glm::inverse(corners) * direction;
+        if (w.x < -1e-9 || w.y < -1e-9 || w.z < -1e-9) continue;
+        const double sum = w.x + w.y + w.z;
+        colour = (glm::dvec3{vertices[indices[i]].encoded} * w.x +
+                  glm::dvec3{vertices[indices[i + 1]].encoded} * w.y +
+                  glm::dvec3{vertices[indices[i + 2]].encoded} * w.z) /
+                 sum;
+        return true;
+    }
+    return false;
+}
+
+TEST(Dome, CoversEveryDirectionWhateverTheHorizon) {
+    Dome dome;
+    std::mt19937 random{7};
+    std::normal_distribution<double> normal;
+    for (const double dip_deg : {0.0, 0.01, 3.0, 20.0, 81.0}) {
+        for (const double source_deg : {90.0, 5.0, -12.0}) {
+            dome.lay_out({-dip_deg * kDegree, source_deg * kDegree, 8e-4});
+            for (int i = 0; i < 40; ++i) {
+                const glm::dvec3 d =
+                    glm::normalize(glm::dvec3{normal(random), normal(random), normal(random)});
+                glm::dvec3 colour;
+                EXPECT_TRUE(interpolate(dome, d, colour)) << dip_deg << " " << source_deg << " " << d.z;
+            }
+        }
+    }
+}
+
+TEST(Dome, RowsRiseAndTheHorizonLiesBetweenTheEdgeRows) {
+    Dome dome;
+    for (const double source_deg : {90.0, 30.0, 0.0, -18.0}) {
+        dome.lay_out({-1.0 * kDegree, source_deg * kDegree, 8e-4});
+        const auto v = dome.vertices();
+        double last = -2.0;
+        for (std::size_t row = 0; row < Dome::kSkyRows + Dome::kGroundRows; ++row) {
+            const double height = static_cast<double>(v[row * (Dome::kColumns + 1)].direction.z);
+            EXPECT_GT(height, last) << row << " at " << source_deg;
+            last = height;
+        }
+        const double below =
+            std::asin(static_cast<double>(v[(Dome::kGroundRows - 1) * (Dome::kColumns + 1)].direction.z));
+        const double above =
+            std::asin(static_cast<double>(v[Dome::kGroundRows * (Dome::kColumns + 1)].direction.z));
+        EXPECT_NEAR(above - below, 8e-4, 2e-6);
+        EXPECT_NEAR(0.5 * (above + below), -1.0 * kDegree, 2e-6);
+    }
+}
+
+TEST(Dome, InterpolatedColoursAreWithinACodeOfTheExactOnes) {
+    std::mt19937 random{11};
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (const auto& named : tests::four_times()) {
+        LightTables tables;
+        const Plan plan = make_plan(named.scene, tables.held());
+        tables.update(named.scene, plan);
+        const SkyLight light = tables.light(named.scene, plan);
+        const double luminance = std::max(
+            1e-4, static_cast<double>(shaders32::luminance_709(light.rgb_cd_m2(0.3, 2.0, Side::kSky))));
+        const auto tone = eye::tone_parameters({}, 3.0 * luminance);
+        const bool by_sun = light.sun.view != nullptr && light.moon.view == nullptr;
+        const LitAir& source = by_sun ? light.sun : light.moon;
+        Dome dome;
+        dome.lay_out({light.horizon_elevation_rad, source.view->source_elevation_rad(), 8e-4});
+        dome.shade(light, source.azimuth_rad, tone);
+        std::vector<double> errors;
+        for (int i = 0; i < 1500; ++i) {
+            // Mostly near the horizon and the source's azimuth, where the sky bends.
+            const double elevation = light.horizon_elevation_rad + std::pow(unit(random), 2.0) * 1.5 + 0.002;
+            const double from_source = (unit(random) < 0.5 ? -1 : 1) * std::pow(unit(random), 2.0) * 3.1;
+            glm::dvec3 drawn;
+            ASSERT_TRUE(interpolate(dome, direction_of({elevation, from_source}), drawn));
+            const glm::dvec3 exact{
+                shaders32::shown(light.rgb_cd_m2(elevation, source.azimuth_rad + from_source, Side::kSky),
+                                 eye::single_precision(tone))};
+            const glm::dvec3 d = glm::abs(drawn - exact) * 255.0;
+            errors.push_back(std::max({d.x, d.y, d.z}));
+        }
+        std::sort(errors.begin(), errors.end());
+        const double p99 = errors[errors.size() * 99 / 100];
+        std::printf("%-6s codes: median %.3f, p99 %.3f, largest %.3f\n", named.name.c_str(),
+                    errors[errors.size() / 2], p99, errors.back());
+        EXPECT_LT(p99, 1.0) << named.name;
+        EXPECT_LT(errors.back(), 2.5) << named.name;
+    }
+}
+
+}  // namespace
+}  // namespace skyig::render

@@ -1,0 +1,116 @@
+#include "render/light_tables.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/shaders/shared.h"
+#include "tests/render/scenes.h"
+
+namespace skyig::render {
+namespace {
+
+using tests::kDegree;
+using tests::make_scene;
+
+double luminance(const SkyLight& light, double elevation_deg, double azimuth_deg) {
+    return static_cast<double>(shaders32::luminance_709(
+        light.rgb_cd_m2(elevation_deg * kDegree, azimuth_deg * kDegree, Side::kByElevation)));
+}
+
+SkyLight step(LightTables& tables, const Scene& scene) {
+    const Plan plan = make_plan(scene, tables.held());
+    tables.update(scene, plan);
+    return tables.light(scene, plan);
+}
+
+TEST(LightTables, FirstFrameIsComplete) {
+    LightTables tables;
+    const SkyLight light = step(tables, make_scene(40, 180, -20, 0, 1000));
+    EXPECT_GT(luminance(light, 60, 0), 300.0);
+    EXPECT_EQ(tables.revision(), 1U);
+}
+
+TEST(LightTables, SlowSunIsFollowedByWholeTablesAFewFramesLater) {
+    LightTables tables;
+    step(tables, make_scene(40.0, 180, -20, 0, 1000));
+    const Scene later = make_scene(40.05, 180, -20, 0, 1000);
+    int frames = 0;
+    while (tables.revision() == 1 && frames < 50) {
+        step(tables, later);
+        ++frames;
+    }
+    EXPECT_GT(frames, 1);
+    EXPECT_LT(frames, 20);
+    EXPECT_NEAR(tables.held().sun_sky_elevation_rad, 40.05 * kDegree, 1e-12);
+    // Fresh tables are not built again.
+    for (int i = 0; i < 30; ++i)
+        step(tables, later);
+    EXPECT_EQ(tables.revision(), 2U);
+}
+
+TEST(LightTables, JumpOfTheClockShowsTheNewSkyInTheSameFrame) {
+    LightTables tables;
+    step(tables, make_scene(40, 180, -20, 0, 1000));
+    LightTables cold;
+    const Scene night = make_scene(-8, 180, -20, 0, 1000);
+    EXPECT_DOUBLE_EQ(luminance(step(tables, night), 30, 90), luminance(step(cold, night), 30, 90));
+}
+
+TEST(LightTables, NewAirIsTakenOverAfterAFixedNumberOfFrames) {
+    Scene scene = make_scene(40, 180, -20, 0, 1000);
+    LightTables first;
+    LightTables second;
+    std::array<std::vector<double>, 2> seen;
+    for (int run = 0; run < 2; ++run) {
+        LightTables& tables = run == 0 ? first : second;
+        Scene s = scene;
+        step(tables, s);
+        s.air.visibility_m = 8000;
+        for (int i = 0; i < 45; ++i)
+            seen[static_cast<std::size_t>(run)].push_back(luminance(step(tables, s), 5, 90));
+    }
+    EXPECT_EQ(seen[0], seen[1]);
+    Scene hazy = scene;
+    hazy.air.visibility_m = 8000;
+    LightTables cold;
+    EXPECT_DOUBLE_EQ(seen[0].back(), luminance(step(cold, hazy), 5, 90));
+    EXPECT_NE(seen[0].front(), seen[0].back());
+}
+
+TEST(LightTables, FullMoonLightsTheNightAFewHundredThousandthsOfTheDay) {
+    LightTables night_tables;
+    LightTables day_tables;
+    const double night = luminance(step(night_tables, make_scene(-40, 0, 40, 180, 0)), 50, 0);
+    const double day = luminance(step(day_tables, make_scene(40, 180, -40, 0, 0)), 50, 0);
+    std::printf("full moon sky / sun sky: %.3g, moonlit %.3g cd/m2\n", night / day, night);
+    // Sun to full Moon: 14 magnitudes (4e5), the surge is not at its peak here; the natural night adds to the
+    // Moon's.
+    EXPECT_GT(night / day, 0.8e-6);
+    EXPECT_LT(night / day, 4.0e-6);
+}
+
+TEST(LightTables, MoonlightNeverPopsInTwilight) {
+    // The descent of the Sun at ten times its pace: each frame differs from the last by less than a display
+    // code.
+    double last = 0.0;
+    LightTables tables;
+    for (double sun = -2.5; sun > -6.5; sun -= 0.0014) {
+        const double now = luminance(step(tables, make_scene(sun, 270, 30, 90, 0)), 40, 0);
+        if (last > 0.0) {
+            EXPECT_LT(std::abs(std::log10(now / last)), 0.01) << sun;
+        }
+        last = now;
+    }
+}
+
+TEST(LightTables, EclipsedSunDimsItsSky) {
+    Scene scene = make_scene(40, 180, -20, 0, 1000);
+    LightTables tables;
+    const double full = luminance(step(tables, scene), 30, 90);
+    scene.sun.unobscured = 0.25;
+    EXPECT_NEAR(luminance(step(tables, scene), 30, 90) / full, 0.25, 1e-3);
+}
+
+}  // namespace
+}  // namespace skyig::render

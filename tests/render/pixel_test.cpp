@@ -1,0 +1,134 @@
+// Drawn pixels against tone(absolute luminance) of the same direction, computed on the CPU in double.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/render/gl_fixture.h"
+
+namespace skyig::render {
+namespace {
+
+using namespace tests;
+
+constexpr int kWidth = 640;
+constexpr int kHeight = 512;
+
+class Pixel : public GlTest {};
+
+TEST_F(Pixel, SmoothLightIsWithinACodeOfTheExactColour) {
+    const std::vector<Channel> channels{{"only", kWidth, kHeight}};
+    const Frustum frustum = symmetric_frustum(40.0, kWidth, kHeight);
+    auto scenes = four_times();
+    scenes.push_back({"10 km", make_scene(25.0, 180.0, -30.0, 0.0, 10000.0)});
+    scenes.push_back({"sunset 10 km", make_scene(-2.0, 180.0, -30.0, 0.0, 10000.0)});
+    scenes.push_back({"sun -9", make_scene(-9.0, 180.0, -30.0, 0.0, 300.0)});
+    for (auto& [name, scene] : scenes) {
+        scene.stars.enabled = scene.sun.enabled = scene.moon.enabled = false;
+        const double source = name == "dawn" ? 120.0 : name == "dusk" ? 235.0 : 180.0;
+        add_view(scene, frustum, view_from_enu(source + 15.0, 6.0, 5.0));
+        Renderer renderer(channels, undithered());
+        const auto pictures = draw(renderer, scene);
+        const double horizon = -std::acos(6371e3 / (6371e3 + scene.eye.height_m));
+        const double edge = 1.5 * pixel_angle_rad(channels[0], frustum);
+        std::vector<double> errors;
+        for (int y = 0; y < kHeight; y += 3) {
+            for (int x = 0; x < kWidth; x += 3) {
+                const glm::dvec3 direction = glm::transpose(scene.views[0].view_from_enu) *
+                                             view_direction(channels[0], frustum, x + 0.5, kHeight - y - 0.5);
+                if (std::abs(std::asin(direction.z) - horizon) < edge) continue;
+                const glm::dvec3 exact = renderer.reference_colour(direction) * 255.0;
+                const Rgb drawn = pictures[0].at(x, y);
+                errors.push_back(std::max(
+                    {std::abs(drawn.r - exact.x), std::abs(drawn.g - exact.y), std::abs(drawn.b - exact.z)}));
+            }
+        }
+        std::sort(errors.begin(), errors.end());
+        const double p99 = errors[errors.size() * 99 / 100];
+        std::printf("%-13s codes: median %.2f, p99 %.2f, largest %.2f\n", name.c_str(),
+                    errors[errors.size() / 2], p99, errors.back());
+        // Half a code of each is the rounding to 8 bits.
+        EXPECT_LE(p99, 1.25) << name;
+        EXPECT_LE(errors.back(), 4.5) << name;
+    }
+}
+
+TEST_F(Pixel, DitherKeepsTheMeanAndStaysWithinACode) {
+    const std::vector<Channel> channels{{"only", kWidth, kHeight}};
+    Scene scene = make_scene(48.0, 185.0, -30.0, 0.0, 1500.0);
+    add_view(scene, symmetric_frustum(30.0, kWidth, kHeight), view_from_enu(0.0, 30.0, 0.0));
+    const auto plain = draw(channels, scene, undithered());
+    const auto dithered = draw(channels, scene, {});
+    double mean = 0.0;
+    int largest = 0;
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const Rgb a = plain[0].at(x, y);
+            const Rgb b = dithered[0].at(x, y);
+            largest = std::max(largest, difference(a, b));
+            mean += b.g - a.g;
+        }
+    }
+    EXPECT_EQ(largest, 1);
+    EXPECT_NEAR(mean / (kWidth * kHeight), 0.0, 0.06);
+}
+
+TEST_F(Pixel, SkyIsUpAndGroundIsDown) {
+    const std::vector<Channel> channels{{"only", 64, 64}};
+    Scene scene = make_scene(48.0, 185.0, -30.0, 0.0, 1500.0);
+    add_view(scene, symmetric_frustum(30.0, 64, 64), view_from_enu(0.0, 0.0, 0.0));
+    const auto picture = draw(channels, scene, undithered())[0];
+    const Rgb high = picture.at(32, 2);
+    const Rgb low = picture.at(32, 61);
+    EXPECT_GT(high.b, high.r + 20) << "the top of the picture is not blue sky";
+    EXPECT_GT(high.b - high.r, low.b - low.r + 20);
+}
+
+TEST_F(Pixel, BrightnessOfTheWholeRigFollowsOneAdaptation) {
+    // Turning the aircraft changes what is seen, not how bright it is shown.
+    const std::vector<Channel> channels{{"only", 64, 64}};
+    Renderer renderer(channels, undithered());
+    double adaptation = 0.0;
+    for (const double yaw : {0.0, 90.0, 180.0}) {
+        Scene scene = make_scene(10.0, 185.0, -30.0, 0.0, 1500.0);
+        add_view(scene, symmetric_frustum(30.0, 64, 64), view_from_enu(yaw, 0.0, 0.0));
+        const double now = renderer.prepare(scene).adaptation_cd_m2;
+        if (adaptation > 0.0) {
+            EXPECT_DOUBLE_EQ(now, adaptation);
+        }
+        adaptation = now;
+    }
+}
+
+TEST_F(Pixel, EqualScenesGiveEqualPictures) {
+    const std::vector<Channel> channels{{"only", 320, 256}};
+    for (auto& [name, scene] : four_times()) {
+        add_view(scene, symmetric_frustum(30.0, 320, 256), view_from_enu(170.0, 5.0, 0.0));
+        EXPECT_EQ(draw(channels, scene, {})[0].rgba, draw(channels, scene, {})[0].rgba) << name;
+    }
+}
+
+TEST_F(Pixel, HardScenesDrawWithoutGlErrors) {
+    const std::vector<Channel> channels{{"narrow", 64, 64}, {"wide", 64, 64}, {"off", 64, 64}};
+    for (const double height : {-400.0, 0.0, 20e3, 100e3, 400e3, 36e6}) {
+        for (const double sun : {90.0, 0.0, -0.1, -6.0, -18.0, -90.0}) {
+            Scene scene = make_scene(sun, 10.0, -sun, 190.0, height);
+            add_view(scene, symmetric_frustum(0.5, 64, 64), view_from_enu(10.0, 89.0, 0.0));
+            add_view(scene, symmetric_frustum(85.0, 64, 64), view_from_enu(10.0, -90.0, 0.0));
+            add_view(scene, {50 * kDegree, 80 * kDegree, -70 * kDegree, -5 * kDegree},
+                     view_from_enu(10.0, 0.0, 170.0));
+            draw(channels, scene, {});
+        }
+    }
+}
+
+TEST_F(Pixel, TooManyOrNoChannelsAreRefused) {
+    EXPECT_THROW(Renderer({}, {}), std::runtime_error);
+    EXPECT_THROW(Renderer(std::vector<Channel>(kMaxChannels + 1, Channel{"x", 8, 8}), {}),
+                 std::runtime_error);
+    EXPECT_THROW(Renderer({Channel{"x", 0, 8}}, {}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace skyig::render

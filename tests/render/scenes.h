@@ -1,0 +1,68 @@
+// Scenes made by hand for the renderer's tests: no ephemeris, no host.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "render/channel.h"
+#include "render/scene.h"
+#include "render/sky_light.h"
+
+namespace skyig::render::tests {
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;
+
+struct NamedScene {
+    std::string name;
+    Scene scene;
+};
+
+inline glm::dvec3 at(double elevation_deg, double azimuth_deg) {
+    return direction_of({elevation_deg * kDegree, azimuth_deg * kDegree});
+}
+
+/// A scene with the Sun and the Moon where they are asked for. Stars lie turned somehow, the same in every
+/// scene.
+inline Scene make_scene(double sun_elevation_deg, double sun_azimuth_deg, double moon_elevation_deg,
+                        double moon_azimuth_deg, double height_m) {
+    Scene scene;
+    scene.eye.height_m = height_m;
+    scene.sun.direction_enu = at(sun_elevation_deg, sun_azimuth_deg);
+    scene.moon.direction_enu = at(moon_elevation_deg, moon_azimuth_deg);
+    scene.moon.to_sun_enu = scene.sun.direction_enu;
+    const double cosine = -glm::dot(scene.moon.direction_enu, scene.sun.direction_enu);
+    scene.moon.phase_angle_rad =
+        std::atan2(glm::length(glm::cross(scene.moon.direction_enu, scene.sun.direction_enu)), cosine);
+    const glm::dvec3 x = glm::normalize(glm::dvec3{0.3, 0.8, 0.52});
+    const glm::dvec3 y = glm::normalize(glm::cross(glm::dvec3{0.1, -0.2, 0.97}, x));
+    scene.stars.enu_from_gcrs = glm::dmat3{x, y, glm::cross(x, y)};
+    return scene;
+}
+
+/// The four times of day that a seam or a colour must hold at.
+inline std::vector<NamedScene> four_times() {
+    return {{"dawn", make_scene(1.5, 120.0, -30.0, 300.0, 400.0)},
+            {"noon", make_scene(48.0, 185.0, -10.0, 40.0, 1500.0)},
+            {"dusk", make_scene(-5.0, 235.0, 12.0, 100.0, 300.0)},
+            {"night", make_scene(-35.0, 0.0, 38.0, 170.0, 600.0)}};
+}
+
+/// Looks along an azimuth, pitched and rolled as an ownship would be.
+inline glm::dmat3 view_from_enu(double yaw_deg, double pitch_deg, double roll_deg,
+                                double view_yaw_deg = 0.0) {
+    return view_from_body() * body_from_ned(view_yaw_deg * kDegree, 0.0, 0.0) *
+           body_from_ned(yaw_deg * kDegree, pitch_deg * kDegree, roll_deg * kDegree) * ned_from_enu();
+}
+
+inline Frustum symmetric_frustum(double half_width_deg, int width_px, int height_px) {
+    const double half_height = std::atan(std::tan(half_width_deg * kDegree) * height_px / width_px);
+    return {-half_width_deg * kDegree, half_width_deg * kDegree, -half_height, half_height};
+}
+
+inline void add_view(Scene& scene, const Frustum& frustum, const glm::dmat3& view) {
+    scene.views[scene.view_count++] = {frustum, view};
+}
+
+}  // namespace skyig::render::tests
