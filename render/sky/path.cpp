@@ -77,7 +77,7 @@ double crowding(const Ray& ray, double low_m, double length_m, int count) {
         std::sqrt(0.5 * model.aerosol_scale_height_m / radius_m);
     const double free_path_m = 1.0 / std::max(depth_per_m(ray.data, ray.data.densities(low_height_m)), 1e-9);
     const double first_m = 0.3 * std::min(free_path_m, model.aerosol_scale_height_m / steepness);
-    return std::clamp(std::log(length_m / first_m) / std::log(static_cast<double>(count)), 1.8, 4.0);
+    return std::clamp(std::log(length_m / first_m) / std::log(static_cast<double>(count)), 1.2, 4.0);
 }
 
 // Steps between two distances, `low_m` being the end at the lower height.

@@ -227,6 +227,7 @@ void SkyView::State::build_row(int row) noexcept {
 }
 
 glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept {
+    if (!std::isfinite(elevation_rad) || !std::isfinite(azimuth_rad)) return glm::vec3(0.0F);
     const auto horizon = static_cast<float>(horizon_rad);
     const float around = std::abs(std::remainder(azimuth_rad, 2.0F * std::numbers::pi_v<float>));
     const float angle = side == Side::kSky ? elevation_rad - horizon : horizon - elevation_rad;

@@ -71,7 +71,8 @@ TEST_P(Interpolation, StaysBelowItsBounds) {
         EXPECT_LT(sky.interpolation.quantile(0.99), source > -5.0 ? 0.01 : 0.03);
         EXPECT_LT(ground.interpolation.quantile(0.99), 0.03);
         EXPECT_LT(sky.march.quantile(0.5), 0.015);
-        EXPECT_LT(sky.march.quantile(0.99), source > -2.0 ? 0.03 : 0.08);
+        // Worst where sunlight just grazes the ground on its way to the air near the horizon.
+        EXPECT_LT(sky.march.quantile(0.99), source > -2.0 ? 0.02 : 0.12);
     }
 }
 
