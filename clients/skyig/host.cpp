@@ -25,8 +25,8 @@ namespace transport = protocol::transport;
 
 namespace {
 
-/// An image generator that says nothing for so long in mid-flight is gone.
-constexpr double kSilent_s = 3.0;
+/// An image generator that says nothing for so long once it has answered is gone.
+constexpr double kSilent_s = 5.0;
 
 /// Wrong usage that only shows when the text is read: exit status 2.
 struct UsageError : std::runtime_error {
@@ -111,9 +111,9 @@ class HostRun {
         late_ += slot.late ? 1 : 0;
         take_answers();
         const double step_s = static_cast<double>(slot.slots) * pacer_.period_s();
+        check_alive();
         if (flying_) {
             flown_s_ += step_s;
-            check_alive();
         } else {
             waited_s_ += step_s;
             flying_ = messages_.operating();
@@ -150,10 +150,12 @@ class HostRun {
     }
 
     void check_alive() const {
+        if (statistics_.count() == 0) return;
         const double silent_s = static_cast<double>(clock_.utc_ns() - statistics_.last_at_ns()) * 1e-9;
         if (silent_s < kSilent_s) return;
         throw std::runtime_error(
-            fmt::format("{} stopped answering {:.1f} s into the flight", options_.to, flown_s_ - silent_s));
+            fmt::format("{} stopped answering {:.1f} s ago, {:.1f} s of the flight are flown", options_.to,
+                        silent_s, flown_s_));
     }
 
     HostResult result() const {

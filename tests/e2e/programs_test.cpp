@@ -1,0 +1,223 @@
+// Exit statuses, error lines and files of the two programs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/e2e/process.h"
+#include "tests/e2e/site.h"
+
+namespace skyig::tests {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using Json = nlohmann::json;
+
+Finished skyigd(std::vector<std::string> arguments, const std::vector<std::string>& environment = {}) {
+    arguments.insert(arguments.begin(), SKYIGD_PROGRAM);
+    return run(arguments, environment);
+}
+
+Finished skyig(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), SKYIG_PROGRAM);
+    return run(arguments);
+}
+
+void expect_usage_error(const Finished& finished, const std::string& part) {
+    EXPECT_EQ(finished.status, 2);
+    EXPECT_THAT(finished.err, HasSubstr(part));
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+    EXPECT_EQ(finished.out, "");
+}
+
+void expect_failure(const Finished& finished, const std::string& part) {
+    EXPECT_EQ(finished.status, 1);
+    EXPECT_THAT(finished.err, HasSubstr(part));
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+}
+
+/// Width and height of a PNG by its header; zeros if it is none.
+std::pair<unsigned, unsigned> png_size(const std::string& path) {
+    const std::string bytes = read_text(path);
+    if (bytes.size() < 24 || bytes.compare(1, 3, "PNG") != 0) return {0, 0};
+    const auto word = [&](std::size_t at) {
+        unsigned value = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            value = value << 8U | static_cast<unsigned char>(bytes[at + i]);
+        return value;
+    };
+    return {word(16), word(20)};
+}
+
+TEST(Skyigd, TellsHelpAndVersion) {
+    const Finished help = skyigd({"--help"});
+    EXPECT_EQ(help.status, 0);
+    for (const char* option :
+         {"--config", "--headless", "--frames", "--out", "--out-every", "--check", "--report"})
+        EXPECT_THAT(help.out, HasSubstr(option));
+    const Finished version = skyigd({"--version"});
+    EXPECT_EQ(version.status, 0);
+    EXPECT_THAT(version.out, StartsWith("skyigd "));
+}
+
+TEST(Skyigd, WrongUsageIsOneLineAndStatusTwo) {
+    const Site site;
+    expect_usage_error(skyigd({}), "--config is required");
+    expect_usage_error(skyigd({"--config", site.config_path, "--frmes", "3"}), "--frmes");
+    expect_usage_error(skyigd({"--config", site.config_path, "--frames", "many"}), "--frames");
+    expect_usage_error(skyigd({"--config", site.config_path, "--out", "x", "--out-every", "0"}),
+                       "--out-every");
+    expect_usage_error(skyigd({"--config", site.config_path, "--out-every", "2"}), "--out");
+    expect_usage_error(skyigd({"--config", "no/such/site.toml"}), "no/such/site.toml");
+}
+
+TEST(Skyigd, CheckSaysOkOrAllThatIsWrong) {
+    const Site site;
+    const Finished good = skyigd({"--config", site.config_path, "--check"});
+    EXPECT_EQ(good.status, 0);
+    EXPECT_THAT(good.out, HasSubstr("ok: 1 channel"));
+    EXPECT_EQ(std::count(good.out.begin(), good.out.end(), '\n'), 1);
+
+    const std::string bad_path = site.scratch.write(
+        "bad.toml", "version = 1\n[daemon]\nrate_hz = 9000\n[host]\nlissten = \"127.0.0.1:1\"\n" +
+                        channel_toml("a", 8, 8, 0));
+    const Finished bad = skyigd({"--config", bad_path, "--check"});
+    EXPECT_EQ(bad.status, 2);
+    EXPECT_THAT(bad.err, HasSubstr("bad.toml:3:"));
+    EXPECT_THAT(bad.err, HasSubstr("bad.toml:5:"));
+    EXPECT_THAT(bad.err, HasSubstr("listen"));
+}
+
+TEST(Skyigd, ExampleSettingsAreGood) {
+    for (const char* name : {"one-channel.toml", "three-channels.toml"}) {
+        const Finished check =
+            skyigd({"--config", std::string(SKYIG_SOURCE_DIR "/config/examples/") + name, "--check"});
+        EXPECT_EQ(check.status, 0) << check.err;
+    }
+}
+
+TEST(Skyigd, DrawsTheFramesAskedForIntoFiles) {
+    const Site site;
+    const std::string out = site.scratch.file("images/deep");
+    const Finished finished = skyigd({"--config", site.config_path, "--headless", "--frames", "6", "--out",
+                                      out, "--out-every", "3", "--report", site.report_path});
+    EXPECT_EQ(finished.status, 0) << finished.err;
+    EXPECT_THAT(finished.err, HasSubstr("skyigd 0.1.0: OpenGL"));
+    EXPECT_EQ(png_size(out + "/only_000003.png"), std::make_pair(64U, 48U));
+    EXPECT_EQ(png_size(out + "/only_000006.png"), std::make_pair(64U, 48U));
+    EXPECT_FALSE(std::filesystem::exists(out + "/only_000001.png"));
+    const Json report = Json::parse(read_text(site.report_path));
+    EXPECT_EQ(report.at("frames"), 6);
+    EXPECT_EQ(report.at("images").at("written"), 2);
+    EXPECT_EQ(report.at("times").size(), 3U);
+    EXPECT_EQ(report.at("gl_errors"), 0);
+}
+
+TEST(Skyigd, MissingDisplayIsOneLineAndStatusOne) {
+    const Site site;
+    expect_failure(skyigd({"--config", site.config_path}, {"__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null"}),
+                   "EGL");
+}
+
+TEST(Skyigd, UnwritableDirectoryIsOneLineAndStatusOne) {
+    const Site site;
+    const std::string file = site.scratch.write("file", "");
+    expect_failure(skyigd({"--config", site.config_path, "--frames", "1", "--out", file + "/images"}),
+                   "cannot be made a directory for images");
+}
+
+TEST(Skyigd, StopsCleanlyOnInterrupt) {
+    const Site site;
+    Process daemon({SKYIGD_PROGRAM, "--config", site.config_path, "--report", site.report_path});
+    ASSERT_TRUE(daemon.wait_for_err("skyigd 0.1.0: "));
+    daemon.signal(SIGINT);
+    const Finished finished = daemon.wait();
+    EXPECT_EQ(finished.status, 0) << finished.err;
+    EXPECT_THAT(finished.out, StartsWith("frames "));
+    EXPECT_TRUE(Json::parse(read_text(site.report_path)).contains("frames"));
+}
+
+TEST(Skyig, TellsHelpOfItselfAndOfEveryVerb) {
+    const Finished help = skyig({"--help"});
+    EXPECT_EQ(help.status, 0);
+    for (const char* verb : {"host", "shot"}) {
+        EXPECT_THAT(help.out, HasSubstr(verb));
+        const Finished verb_help = skyig({verb, "--help"});
+        EXPECT_EQ(verb_help.status, 0);
+        EXPECT_THAT(verb_help.out, HasSubstr("--json"));
+    }
+    EXPECT_THAT(skyig({"--version"}).out, StartsWith("skyig "));
+}
+
+TEST(Skyig, UnknownVerbNamesTheNearest) {
+    expect_usage_error(skyig({"hots"}), "no verb 'hots'; did you mean 'host'?");
+    expect_usage_error(skyig({"shoot", "--out", "x.png"}), "did you mean 'shot'?");
+    expect_usage_error(skyig({}), "subcommand");
+}
+
+TEST(Skyig, WrongUsageOfVerbsIsStatusTwo) {
+    const std::string flight = SKYIG_TEST_DATA "/flights/fg_c172p_takeoff_bikf.csv";
+    expect_usage_error(skyig({"host"}), "--flight is required");
+    expect_usage_error(skyig({"host", "--flight", flight, "--utc", "noon"}), "'noon' is no UTC time");
+    expect_usage_error(skyig({"host", "--flight", flight, "--utc", "2026-06-21T12:00:00Z", "--cigi", "2.0"}),
+                       "--cigi");
+    expect_usage_error(
+        skyig({"host", "--flight", flight, "--utc", "2026-06-21T12:00:00Z", "--to", "nowhere"}), "--to");
+    expect_usage_error(skyig({"shot", "--out", "x.png", "--lat", "91"}), "--lat");
+    expect_usage_error(skyig({"shot"}), "--out is required");
+}
+
+TEST(Skyig, FlightErrorsNameFileAndLine) {
+    const Site site;
+    const std::string csv = site.scratch.write(
+        "bad.csv", "t_s,lat_deg,lon_deg,alt_msl_m,yaw_deg,pitch_deg,roll_deg\n0,1,2,3,4,5,6\n1,1,2,3,4,5\n");
+    expect_failure(skyig({"host", "--flight", csv, "--utc", "2026-06-21T12:00:00Z"}),
+                   "bad.csv:3: 6 fields where the header has 7");
+}
+
+TEST(Skyig, ShotDrawsOneStillAndTellsTheSky) {
+    const Site site;
+    const std::string out = site.scratch.file("still.png");
+    const Finished finished = skyig({"shot",      "--lat",   "47.46",
+                                     "--lon",     "8.55",    "--alt",
+                                     "1000",      "--utc",   "2026-06-21T11:30Z",
+                                     "--heading", "180",     "--pitch",
+                                     "20",        "--width", "96",
+                                     "--height",  "64",      "--fov",
+                                     "80",        "--out",   out,
+                                     "--json"});
+    ASSERT_EQ(finished.status, 0) << finished.err;
+    const Json told = Json::parse(finished.out);
+    EXPECT_EQ(png_size(out), std::make_pair(96U, 64U));
+    EXPECT_EQ(told.at("pictures").at(0).at("path"), out);
+    // Noon of the solstice: 90 - latitude + obliquity.
+    EXPECT_NEAR(told.at("sun").at("elevation_deg").get<double>(), 65.97, 0.05);
+    EXPECT_NEAR(told.at("sun").at("azimuth_deg").get<double>(), 180.0, 2.0);
+    EXPECT_GT(told.at("adaptation_cd_m2").get<double>(), 500.0);
+}
+
+TEST(Skyig, ShotDrawsEveryChannelOfASite) {
+    const Site site;
+    const std::string config = site.scratch.write(
+        "two.toml", "version = 1\n" + channel_toml("left", 32, 24, -60) + channel_toml("right", 40, 24, 0));
+    const Finished finished = skyig({"shot", "--config", config, "--utc", "2026-06-21T22:00:00Z", "--out",
+                                     site.scratch.file("night.png")});
+    ASSERT_EQ(finished.status, 0) << finished.err;
+    EXPECT_EQ(png_size(site.scratch.file("night_left.png")), std::make_pair(32U, 24U));
+    EXPECT_EQ(png_size(site.scratch.file("night_right.png")), std::make_pair(40U, 24U));
+    EXPECT_THAT(finished.out, HasSubstr("Moon "));
+}
+
+TEST(Skyig, ShotThatCannotBeWrittenIsStatusOne) {
+    expect_failure(skyig({"shot", "--width", "8", "--height", "8", "--out", "no/such/directory/x.png"}),
+                   "no/such/directory/x.png");
+}
+
+}  // namespace
+}  // namespace skyig::tests
