@@ -56,14 +56,14 @@ MessageSummary decode(const GoldenDatagram& golden, Collector& collector, Counte
 }
 
 void compare_packet(const SeenPacket& seen, const nlohmann::json& wanted, std::size_t& compared) {
-    EXPECT_EQ(seen.id, wanted.at("id"));
-    EXPECT_EQ(seen.size, wanted.at("size"));
-    EXPECT_EQ(seen.offset, wanted.at("offset"));
+    EXPECT_EQ(seen.id, wanted.at("id").get<std::size_t>());
+    EXPECT_EQ(seen.size, wanted.at("size").get<std::size_t>());
+    EXPECT_EQ(seen.offset, wanted.at("offset").get<std::size_t>());
     if (wanted.at("packet").is_null()) {
         EXPECT_EQ(seen.name, "");
         return;
     }
-    EXPECT_EQ(seen.name, wanted.at("packet"));
+    EXPECT_EQ(seen.name, wanted.at("packet").get<std::string>());
     const nlohmann::json& fields = wanted.at("fields");
     EXPECT_EQ(seen.fields.size(), fields.size()) << seen.name;
     for (const auto& [name, value] : fields.items()) {
@@ -93,7 +93,7 @@ TEST(Golden, EveryDatagramDecodesToItsFields) {
             compare_packet(collector.packets[i], golden.packets[i], compared);
         }
     }
-    std::printf("%zu fields compared, 0 may differ\n", compared);
+    std::printf("%zu fields compared\n", compared);
     EXPECT_GT(compared, 800U);
 }
 
