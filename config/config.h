@@ -2,40 +2,15 @@
 // load_config() is complete and inside every stated range; nobody checks it again.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "config/channel.h"
+#include "config/host.h"
+
 namespace skyig::config {
-
-inline constexpr std::size_t kMaxChannels = 16;
-/// All channels of one daemon share one eye point; views further apart than this need a daemon of their own.
-inline constexpr double kMaxEyeSpread_m = 50.0;
-/// Furthest offset of an eye point from what carries it, each axis.
-inline constexpr double kMaxOffset_m = 1000.0;
-/// Largest half angle of a frustum side, either sign.
-inline constexpr double kMaxHalfAngle_deg = 87.5;
-inline constexpr int kMaxChannelSize_px = 16384;
-
-/// CIGI protocol version as written: {3, 3} or {4, 0}.
-struct CigiVersion {
-    int major = 3;
-    int minor = 3;
-
-    friend bool operator==(const CigiVersion&, const CigiVersion&) = default;
-};
-
-/// Dotted-quad IPv4 address and UDP port.
-struct UdpAddress {
-    std::string address = "127.0.0.1";
-    std::uint16_t port = 0;
-
-    friend bool operator==(const UdpAddress&, const UdpAddress&) = default;
-};
 
 /// UTC, proleptic Gregorian, years 1900..2100, second 0..<60.
 struct UtcDateTime {
@@ -52,22 +27,6 @@ struct UtcDateTime {
 struct Daemon {
     /// Frames a second, 1..240.
     double rate_hz = 60.0;
-};
-
-/// "accept": any database number the host asks for counts as loaded; "none": 0 is reported always.
-enum class DatabasePolicy { kAccept, kNone };
-
-struct Host {
-    UdpAddress listen{"127.0.0.1", 8004};
-    /// Where answers go; empty ("sender" in the file): to the last valid sender.
-    std::optional<UdpAddress> reply_to = UdpAddress{"127.0.0.1", 8005};
-    /// Dotted-quad addresses whose datagrams are read, at least one.
-    std::vector<std::string> allow{"127.0.0.1"};
-    /// Announced in Start of Frame until a host speaks; then the host's own version is used.
-    CigiVersion cigi;
-    DatabasePolicy database = DatabasePolicy::kAccept;
-    /// A host silent for so long is said to be lost, 0.1..3600.
-    double lost_after_s = 1.0;
 };
 
 /// The world at start-up, and again each time the host puts the image generator into Standby.
@@ -133,30 +92,6 @@ enum class OutputKind { kHeadless };
 
 struct Output {
     OutputKind kind = OutputKind::kHeadless;
-};
-
-struct Channel {
-    /// 1..32 of letters, digits, '-' and '_', unique: it becomes part of file names.
-    std::string name;
-    int width_px = 1280;
-    int height_px = 1024;
-    /// Signed half angles from the view axis to each side: left < right, bottom < top; left and bottom
-    /// normally negative; each within +-kMaxHalfAngle_deg.
-    double left_deg = -30.0;
-    double right_deg = 30.0;
-    double bottom_deg = -24.79;
-    double top_deg = 24.79;
-    /// Turn of the view axis from the body axes: yaw right, then pitch up, then roll right.
-    double yaw_deg = 0.0;
-    double pitch_deg = 0.0;
-    double roll_deg = 0.0;
-    /// Eye point from the ownship's reference point, body axes: forward, right, down; each within +-kMaxOffset_m.
-    std::array<double, 3> offset_m{0.0, 0.0, 0.0};
-    /// How the host's View Control and View Definition address it; unique. If not given: its place in the
-    /// file, from 1.
-    int view_id = 1;
-    /// 0 = in no group, 1..255.
-    int group_id = 0;
 };
 
 struct Config {

@@ -37,7 +37,7 @@ std::vector<ConfigError> ErrorList::sorted() && {
     return std::move(errors_);
 }
 
-std::string_view type_name(const Value& value) noexcept {
+std::string_view type_name(const Value& value) {
     struct Names {
         std::string_view operator()(bool) const { return "a truth value"; }
         std::string_view operator()(std::int64_t) const { return "a whole number"; }

@@ -71,7 +71,7 @@ class TableReader {
 };
 
 /// "a number", "text", ... for errors.
-[[nodiscard]] std::string_view type_name(const Value& value) noexcept;
+[[nodiscard]] std::string_view type_name(const Value& value);
 /// Integers count as numbers; null result for anything else or not finite.
 [[nodiscard]] bool as_number(const Value& value, double& out) noexcept;
 /// "1..240 Hz"

@@ -12,6 +12,8 @@ class Clock {
     Clock() = default;
     Clock(const Clock&) = delete;
     Clock& operator=(const Clock&) = delete;
+    Clock(Clock&&) = delete;
+    Clock& operator=(Clock&&) = delete;
     virtual ~Clock() = default;
 
     /// Nanoseconds since an arbitrary instant; never steps.

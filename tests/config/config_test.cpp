@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <random>
 
 namespace skyig::config {
 namespace {
@@ -313,6 +314,36 @@ TEST(Config, SyntaxErrorsAreLocated) {
     EXPECT_FALSE(error.message.empty());
     EXPECT_EQ(error_of("version = 1\nversion = 1\n").line, 2);
     EXPECT_FALSE(errors_of("version = \"\xff\xfe\"").empty());
+}
+
+TEST(Config, AnyMutilatedFileGivesAConfigOrErrors) {
+    std::FILE* file = std::fopen(SKYIG_SOURCE_DIR "/config/examples/three-channels.toml", "rb");
+    ASSERT_NE(file, nullptr);
+    std::string original(8192, '\0');
+    original.resize(std::fread(original.data(), 1, original.size(), file));
+    std::fclose(file);
+    std::mt19937 random(20260621);
+    const auto below = [&random](std::size_t bound) { return static_cast<std::size_t>(random()) % bound; };
+    int good = 0, bad = 0;
+    for (int i = 0; i < 3000; ++i) {
+        std::string text = original;
+        for (std::size_t n = below(4) + 1; n > 0; --n) {
+            const std::size_t at = below(text.size() - 1);
+            if (below(3) == 0) {
+                text.erase(at, below(40));
+            } else if (below(2) == 0) {
+                text[at] = static_cast<char>(below(256));
+            } else {
+                text.insert(at, original.substr(below(original.size()), below(40)));
+            }
+        }
+        const LoadResult result = parse_config(text, "a");
+        EXPECT_NE(result.config.has_value(), !result.errors.empty());
+        ++(result ? good : bad);
+    }
+    std::printf("  %d still good, %d refused\n", good, bad);
+    EXPECT_GT(good, 0);
+    EXPECT_GT(bad, 0);
 }
 
 TEST(Config, FilesThatCannotBeReadSayWhy) {

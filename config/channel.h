@@ -1,0 +1,44 @@
+// A display channel as configured.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+namespace skyig::config {
+
+inline constexpr std::size_t kMaxChannels = 16;
+/// All channels of one daemon share one eye point; views further apart than this need a daemon of their own.
+inline constexpr double kMaxEyeSpread_m = 50.0;
+/// Furthest offset of an eye point from what carries it, each axis.
+inline constexpr double kMaxOffset_m = 1000.0;
+/// Largest half angle of a frustum side, either sign.
+inline constexpr double kMaxHalfAngle_deg = 87.5;
+inline constexpr int kMaxChannelSize_px = 16384;
+
+struct Channel {
+    /// 1..32 of letters, digits, '-' and '_', unique: it becomes part of file names.
+    std::string name;
+    int width_px = 1280;
+    int height_px = 1024;
+    /// Signed half angles from the view axis to each side: left < right, bottom < top; left and bottom
+    /// normally negative; each within +-kMaxHalfAngle_deg.
+    double left_deg = -30.0;
+    double right_deg = 30.0;
+    double bottom_deg = -24.79;
+    double top_deg = 24.79;
+    /// Turn of the view axis from the body axes: yaw right, then pitch up, then roll right.
+    double yaw_deg = 0.0;
+    double pitch_deg = 0.0;
+    double roll_deg = 0.0;
+    /// Eye point from the ownship's reference point, body axes: forward, right, down; each within
+    /// +-kMaxOffset_m.
+    std::array<double, 3> offset_m{0.0, 0.0, 0.0};
+    /// How the host's View Control and View Definition address it; unique. If not given: its place in the
+    /// file, from 1.
+    int view_id = 1;
+    /// 0 = in no group, 1..255.
+    int group_id = 0;
+};
+
+}  // namespace skyig::config
