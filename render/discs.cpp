@@ -10,19 +10,6 @@ namespace skyig::render {
 
 namespace {
 
-void set_frame(const gl::Program& program, const DiscFrame& frame, bool dither) {
-    program.set(program.uniform("u_centre_enu"), frame.centre_enu);
-    program.set(program.uniform("u_right_enu"), frame.right_enu);
-    program.set(program.uniform("u_up_enu"), frame.up_enu);
-    program.set(program.uniform("u_extent"), frame.radius + 2.0F * frame.pixel_rad);
-    program.set(program.uniform("u_radius"), frame.radius);
-    program.set(program.uniform("u_pixel_rad"), frame.pixel_rad);
-    program.set(program.uniform("u_horizon_sin"), std::sin(frame.horizon_rad));
-    program.set(program.uniform("u_horizon_cos"), std::cos(frame.horizon_rad));
-    program.set(program.uniform("u_background_cd_m2"), frame.background_cd_m2);
-    program.set(program.uniform("u_dither_codes"), dither ? 1.0F : 0.0F);
-}
-
 // Linear limb darkening at red, green and blue (fits to Neckel and Labs 1994 near 610, 550 and 465 nm).
 const glm::vec3 kLimb{0.53F, 0.60F, 0.72F};
 
@@ -64,51 +51,79 @@ DiscFrame disc_frame(const glm::dvec3& centre_enu, double angular_radius_rad, do
     return frame;
 }
 
-SunDisc::SunDisc() : program_("sky/disc.vert", "sky/sun.frag"), square_({}, 4), tone_(program_, true) {}
+DiscPass::DiscPass(std::string_view fragment)
+    : program_("sky/disc.vert", fragment),
+      square_({}, 4),
+      tone_(program_, true),
+      clip_(program_.uniform("u_clip_from_enu")),
+      centre_(program_.uniform("u_centre_enu")),
+      right_(program_.uniform("u_right_enu")),
+      up_(program_.uniform("u_up_enu")),
+      extent_(program_.uniform("u_extent")),
+      radius_(program_.uniform("u_radius")),
+      pixel_(program_.uniform("u_pixel_rad")),
+      horizon_sin_(program_.uniform("u_horizon_sin")),
+      horizon_cos_(program_.uniform("u_horizon_cos")),
+      background_(program_.uniform("u_background_cd_m2")),
+      dither_(program_.uniform("u_dither_codes")) {}
+
+void DiscPass::prepare(const DiscFrame& frame, const shaders32::ToneParameters& tone, bool dither) const {
+    program_.set(centre_, frame.centre_enu);
+    program_.set(right_, frame.right_enu);
+    program_.set(up_, frame.up_enu);
+    program_.set(extent_, frame.radius + 2.0F * frame.pixel_rad);
+    program_.set(radius_, frame.radius);
+    program_.set(pixel_, frame.pixel_rad);
+    program_.set(horizon_sin_, std::sin(frame.horizon_rad));
+    program_.set(horizon_cos_, std::cos(frame.horizon_rad));
+    program_.set(background_, frame.background_cd_m2);
+    program_.set(dither_, dither ? 1.0F : 0.0F);
+    tone_.set(program_, tone);
+}
+
+void DiscPass::draw(const glm::mat4& clip_from_enu) const {
+    program_.use();
+    program_.set(clip_, clip_from_enu);
+    square_.draw_strip(4);
+}
+
+SunDisc::SunDisc()
+    : pass_("sky/sun.frag"),
+      disc_(pass_.program().uniform("u_disc_cd_m2")),
+      limb_(pass_.program().uniform("u_limb")) {}
 
 void SunDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
-                      const shaders32::ToneParameters& tone, bool dither) {
+                      const shaders32::ToneParameters& tone, bool dither) const {
     const Sun& sun = scene.sun;
-    set_frame(program_, disc_frame(sun.direction_enu, sun.angular_radius_rad, pixel_rad, light), dither);
+    pass_.prepare(disc_frame(sun.direction_enu, sun.angular_radius_rad, pixel_rad, light), tone, dither);
     const double sine = std::sin(sun.angular_radius_rad);
     const glm::dvec3 illuminance = air.direct_sun_xyz(
         light.eye_height_m, horizontal_of(sun.direction_enu).elevation_rad, sun.distance_au);
     const glm::dvec3 mean = illuminance / (std::numbers::pi * sine * sine);
-    program_.set(program_.uniform("u_disc_cd_m2"), rec709_from_xyz(glm::vec3{mean}));
-    program_.set(program_.uniform("u_limb"), kLimb);
-    tone_.set(program_, tone);
+    pass_.program().set(disc_, rec709_from_xyz(glm::vec3{mean}));
+    pass_.program().set(limb_, kLimb);
 }
 
-void SunDisc::draw(const glm::mat4& clip_from_enu) const {
-    program_.use();
-    program_.set(program_.uniform("u_clip_from_enu"), clip_from_enu);
-    square_.draw_strip(4);
-}
-
-MoonDisc::MoonDisc() : program_("sky/disc.vert", "night/moon.frag"), square_({}, 4), tone_(program_, true) {}
+MoonDisc::MoonDisc()
+    : pass_("night/moon.frag"),
+      face_(pass_.program().uniform("u_full_cd_m2")),
+      earthshine_(pass_.program().uniform("u_earthshine_cd_m2")),
+      to_sun_(pass_.program().uniform("u_to_sun_disc")) {}
 
 void MoonDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
-                       const shaders32::ToneParameters& tone, bool dither) {
+                       const shaders32::ToneParameters& tone, bool dither) const {
     const Moon& moon = scene.moon;
     const DiscFrame frame = disc_frame(moon.direction_enu, moon.angular_radius_rad, pixel_rad, light);
-    set_frame(program_, frame, dither);
+    pass_.prepare(frame, tone, dither);
     const glm::dvec3 through =
         air.transmittance_rgb(light.eye_height_m, horizontal_of(moon.direction_enu).elevation_rad);
     const glm::dvec3 face = night::moon_tint_rgb() * night::moon_face_cd_m2(moon) * through;
     const glm::dvec3 dark_side = glm::dvec3{night::earthshine_cd_m2(moon.phase_angle_rad)} * through;
-    program_.set(program_.uniform("u_full_cd_m2"), glm::vec3{face});
-    program_.set(program_.uniform("u_earthshine_cd_m2"), glm::vec3{dark_side});
     const glm::vec3 to_sun{moon.to_sun_enu};
-    program_.set(program_.uniform("u_to_sun_disc"),
-                 glm::vec3{glm::dot(to_sun, frame.right_enu), glm::dot(to_sun, frame.up_enu),
-                           -glm::dot(to_sun, frame.centre_enu)});
-    tone_.set(program_, tone);
-}
-
-void MoonDisc::draw(const glm::mat4& clip_from_enu) const {
-    program_.use();
-    program_.set(program_.uniform("u_clip_from_enu"), clip_from_enu);
-    square_.draw_strip(4);
+    pass_.program().set(face_, glm::vec3{face});
+    pass_.program().set(earthshine_, glm::vec3{dark_side});
+    pass_.program().set(to_sun_, glm::vec3{glm::dot(to_sun, frame.right_enu), glm::dot(to_sun, frame.up_enu),
+                                           -glm::dot(to_sun, frame.centre_enu)});
 }
 
 }  // namespace skyig::render

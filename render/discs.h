@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <string_view>
 
 #include "render/gl/mesh.h"
 #include "render/gl/program.h"
@@ -15,7 +16,8 @@ namespace skyig::render {
 /// Uniforms of shaders/eye/tone.glsl in one program.
 class ToneUniforms {
   public:
-    explicit ToneUniforms(const gl::Program& program, bool all);
+    /// \param all  false for programs that only encode
+    ToneUniforms(const gl::Program& program, bool all);
     void set(const gl::Program& program, const shaders32::ToneParameters& tone) const;
 
   private:
@@ -37,30 +39,48 @@ struct DiscFrame {
 [[nodiscard]] DiscFrame disc_frame(const glm::dvec3& centre_enu, double angular_radius_rad, double pixel_rad,
                                    const SkyLight& light) noexcept;
 
-class SunDisc {
+/// The program and the square that a disc is drawn with, and the uniforms that both discs have.
+class DiscPass {
   public:
-    SunDisc();
-    void prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
-                 const shaders32::ToneParameters& tone, bool dither);
+    /// \param fragment  shader of the disc
+    /// \throws std::runtime_error when the program cannot be made
+    explicit DiscPass(std::string_view fragment);
+
+    void prepare(const DiscFrame& frame, const shaders32::ToneParameters& tone, bool dither) const;
     void draw(const glm::mat4& clip_from_enu) const;
+
+    [[nodiscard]] const gl::Program& program() const noexcept { return program_; }
 
   private:
     gl::Program program_;
     gl::Mesh square_;
     ToneUniforms tone_;
+    int clip_, centre_, right_, up_, extent_, radius_, pixel_, horizon_sin_, horizon_cos_, background_,
+        dither_;
+};
+
+class SunDisc {
+  public:
+    SunDisc();
+    void prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
+                 const shaders32::ToneParameters& tone, bool dither) const;
+    void draw(const glm::mat4& clip_from_enu) const { pass_.draw(clip_from_enu); }
+
+  private:
+    DiscPass pass_;
+    int disc_, limb_;
 };
 
 class MoonDisc {
   public:
     MoonDisc();
     void prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
-                 const shaders32::ToneParameters& tone, bool dither);
-    void draw(const glm::mat4& clip_from_enu) const;
+                 const shaders32::ToneParameters& tone, bool dither) const;
+    void draw(const glm::mat4& clip_from_enu) const { pass_.draw(clip_from_enu); }
 
   private:
-    gl::Program program_;
-    gl::Mesh square_;
-    ToneUniforms tone_;
+    DiscPass pass_;
+    int face_, earthshine_, to_sun_;
 };
 
 }  // namespace skyig::render

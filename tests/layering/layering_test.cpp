@@ -115,6 +115,13 @@ TEST(Layering, OnlyClocksAndSocketsAskForTheTime) {
     }
 }
 
+TEST(Layering, NobodyCallsTheCAllocator) {
+    const std::regex allocator(R"(\b(malloc|calloc|realloc|strdup)\s*\()");
+    for (const SourceFile& file : read_sources()) {
+        EXPECT_FALSE(std::regex_search(without_comments(file.text), allocator)) << file.path;
+    }
+}
+
 TEST(Layering, FilesStaySmall) {
     for (const SourceFile& file : read_sources()) {
         const auto lines = std::count(file.text.begin(), file.text.end(), '\n');
