@@ -64,12 +64,12 @@ inline constexpr double kMinVisibilityM = 1000.0;
 inline constexpr double kMaxVisibilityM = 250.0e3;
 
 /// The air of a scene: US Standard Atmosphere 1976 molecules (scaled with the pressure), 300 DU of ozone,
-/// aerosol with a scale height of 1.2 km (less below 4 km of visibility, in proportion: mist is shallow) whose
-/// extinction at the ground brings the total at 550 nm to -ln(contrast) / visibility, a dull grass-and-soil
-/// ground (luminous albedo about 0.1), lid at 120 km, ground at 6371 km. `model_enabled == false`: molecules and
-/// ozone only. Any input is legal: what is not finite counts as the default, what is out of range is clamped
-/// (visibility as above, contrast 0.01..0.2, pressure 850..1085 hPa), and the model depends continuously on
-/// each number. Temperature and humidity do not enter.
+/// aerosol with a scale height of 1.2 km (less below 4 km of visibility, in proportion: mist is shallow)
+/// whose extinction at the ground brings the total at 550 nm to -ln(contrast) / visibility, a dull
+/// grass-and-soil ground (luminous albedo about 0.1), lid at 120 km, ground at 6371 km. `model_enabled ==
+/// false`: molecules and ozone only. Any input is legal: what is not finite counts as the default, what is
+/// out of range is clamped (visibility as above, contrast 0.01..0.2, pressure 850..1085 hPa), and the model
+/// depends continuously on each number. Temperature and humidity do not enter.
 [[nodiscard]] AirModel air_model(const Air& air);
 
 }  // namespace skyig::render::sky

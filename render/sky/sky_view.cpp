@@ -38,7 +38,7 @@ struct RowMap {
     }
     [[nodiscard]] float w(float angle_rad) const noexcept {
         const float y = angle_rad / static_cast<float>(scale_rad);
-        return std::log1p(y + std::sqrt(y * (2.0F + y))) / static_cast<float>(growth);
+        return std::log(1.0F + (y + std::sqrt(y * (2.0F + y)))) / static_cast<float>(growth);
     }
 };
 
@@ -47,6 +47,13 @@ std::array<float, 4> catmull_rom(float t) {
     const float t3 = t2 * t;
     return {0.5F * (2.0F * t2 - t - t3), 0.5F * (2.0F - 5.0F * t2 + 3.0F * t3),
             0.5F * (t + 4.0F * t2 - 3.0F * t3), 0.5F * (t3 - t2)};
+}
+
+// Absolute azimuth in 0..pi of any angle. The exact remainder is slow and seldom needed.
+float folded(float azimuth_rad) {
+    constexpr float kPi = std::numbers::pi_v<float>;
+    const float size = std::abs(azimuth_rad);
+    return size <= kPi ? size : std::min(std::abs(std::remainder(size, 2.0F * kPi)), kPi);
 }
 
 // A grid with one node of margin on every side, so that the cubic needs no special cases.
@@ -229,7 +236,7 @@ void SkyView::State::build_row(int row) noexcept {
 glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept {
     if (!std::isfinite(elevation_rad) || !std::isfinite(azimuth_rad)) return glm::vec3(0.0F);
     const auto horizon = static_cast<float>(horizon_rad);
-    const float around = std::abs(std::remainder(azimuth_rad, 2.0F * std::numbers::pi_v<float>));
+    const float around = folded(azimuth_rad);
     const float angle = side == Side::kSky ? elevation_rad - horizon : horizon - elevation_rad;
     const RowMap& map = side == Side::kSky ? sky_map : ground_map;
     const auto range = static_cast<float>(map.range_rad);
@@ -241,8 +248,10 @@ glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_
                     around * std::numbers::inv_pi_v<float> * static_cast<float>(size.columns - 1));
 
     const float elevation = side == Side::kSky ? horizon + within : horizon - within;
-    const float cosine = std::sin(elevation) * static_cast<float>(source_sine) +
-                         std::cos(elevation) * static_cast<float>(source_cosine) * std::cos(around);
+    const float sine = std::sin(elevation);
+    const float level = std::sqrt(std::max(0.0F, 1.0F - sine * sine));
+    const float cosine =
+        sine * static_cast<float>(source_sine) + level * static_cast<float>(source_cosine) * std::cos(around);
     const float phase =
         cornette_shanks_phase(static_cast<float>(tables->model().aerosol_g), std::clamp(cosine, -1.0F, 1.0F));
     return glm::max(glm::vec3(node[0], node[1], node[2]) + phase * glm::vec3(node[4], node[5], node[6]),

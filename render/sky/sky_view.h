@@ -43,7 +43,8 @@ class SkyView {
     [[nodiscard]] bool complete() const noexcept;
 
     /// \param elevation_rad  above the horizontal at the eye, -pi/2..pi/2 (clamped)
-    /// \param relative_azimuth_rad  from the source's azimuth, any finite value; an angle that is not finite gets black
+    /// \param relative_azimuth_rad  from the source's azimuth, any finite value; an angle that is not finite
+    /// gets black
     [[nodiscard]] glm::vec3 xyz(float elevation_rad, float relative_azimuth_rad) const noexcept;
     /// The same from one side of the horizon only: a direction beyond it gets the value at the edge.
     [[nodiscard]] glm::vec3 xyz_above(float elevation_rad, float relative_azimuth_rad) const noexcept;
