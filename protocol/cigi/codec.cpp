@@ -240,7 +240,8 @@ void write_packet(const P& packet, Version version, ByteOrder order, std::byte* 
     });
 }
 
-// A type of AllPackets that is missing here shows as an undefined reference.
+// A type of AllPackets that is missing here shows as an undefined reference. The argument is a type, so no
+// parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
 #define SKYIG_CIGI_PACKET(P)                                                                   \
     template bool read_packet<P>(std::span<const std::byte>, Version, ByteOrder, P&) noexcept; \
     template std::size_t packet_bytes<P>(const P&, Version) noexcept;                          \
@@ -270,5 +271,6 @@ SKYIG_CIGI_PACKET(TerrestrialSurfaceResponse)
 SKYIG_CIGI_PACKET(EventNotification)
 SKYIG_CIGI_PACKET(IgMessage)
 #undef SKYIG_CIGI_PACKET
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace skyig::protocol::cigi

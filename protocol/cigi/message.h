@@ -113,7 +113,7 @@ template <std::size_t First, std::size_t Kinds, class Handler, class KindOf>
 MessageSummary decode_message(std::span<const std::byte> bytes, MessageSummary summary, Handler& handler,
                               Counters& counters, Validation validation, Count duplicate, KindOf kind_of_id) {
     if (!summary.accepted) {
-        ++counters[*summary.fault];
+        ++counters[summary.fault.value_or(Count::kFirstPacket)];
         return summary;
     }
     ++counters.messages;

@@ -202,7 +202,8 @@ Verdict validate(P& packet, Version version) noexcept {
     return verdict;
 }
 
-// A type of AllPackets that is missing here shows as an undefined reference.
+// A type of AllPackets that is missing here shows as an undefined reference. The argument is a type, so no
+// parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
 #define SKYIG_CIGI_PACKET(P) template Verdict validate<P>(P&, Version) noexcept;
 SKYIG_CIGI_PACKET(IgControl)
 SKYIG_CIGI_PACKET(EntityControl)
@@ -229,5 +230,6 @@ SKYIG_CIGI_PACKET(TerrestrialSurfaceResponse)
 SKYIG_CIGI_PACKET(EventNotification)
 SKYIG_CIGI_PACKET(IgMessage)
 #undef SKYIG_CIGI_PACKET
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace skyig::protocol::cigi

@@ -84,10 +84,11 @@ class DatagramRing {
         return record;
     }
 
+    // Both count bytes since the start and never wrap in practice; each is written by one side only and has
+    // its own line.
+    alignas(kCacheLine) std::atomic<std::size_t> written_{0};
     std::size_t capacity_;
     std::unique_ptr<std::byte[]> storage_;
-    // Both count bytes since the start and never wrap in practice; each is written by one side only.
-    alignas(kCacheLine) std::atomic<std::size_t> written_{0};
     alignas(kCacheLine) std::atomic<std::size_t> released_{0};
 };
 

@@ -140,6 +140,8 @@ struct UdpReceiver::State {
           ring(options.ring_bytes) {}
     State(const State&) = delete;
     State& operator=(const State&) = delete;
+    State(State&&) = delete;
+    State& operator=(State&&) = delete;
     ~State() {
         signal(stop);
         if (thread.joinable()) thread.join();
