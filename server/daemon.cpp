@@ -94,6 +94,7 @@ void run(const DaemonOptions& options, const config::Config& config) {
 
     FrameLoop loop(config, {clock, log, link, world, painter, images.get()}, options.frames,
                    options.out_every);
+    loop.warm_up();
     loop.run([&stop] { return stop.requested(); });
     if (images) images->finish();
 

@@ -33,6 +33,12 @@ FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, 
       inbox_(parts.world, parts.log),
       times_(config.channels.size()) {}
 
+void FrameLoop::warm_up() {
+    parts_.painter.prepare(scenes_.build(parts_.world, 0));
+    for (std::size_t channel = 0; channel < config_.channels.size(); ++channel)
+        parts_.painter.draw(channel);
+}
+
 void FrameLoop::run(const std::function<bool()>& stop) {
     while (!stop() && (frame_limit_ == 0 || frame_number_ < frame_limit_))
         run_frame();

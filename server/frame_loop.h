@@ -38,6 +38,10 @@ class FrameLoop {
     FrameLoop(const config::Config& config, const FrameLoopParts& parts, std::uint64_t frame_limit,
               std::uint64_t image_every);
 
+    /// Draws the world as it stands once, so that tables and programs are there before the first frame is
+    /// due. Not counted, not told to the host.
+    void warm_up();
+
     /// Runs frames until the limit is reached or `stop` says so (asked once a frame).
     void run(const std::function<bool()>& stop);
 

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,7 @@ namespace {
 using skyig::server::DaemonOptions;
 
 constexpr int kDone = 0;
+constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 
 void declare(CLI::App& app, DaemonOptions& options) {
@@ -55,9 +57,7 @@ std::optional<DaemonOptions> read_command_line(int argc, char** argv, int& exit_
     return std::nullopt;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
     int exit_status = kDone;
     const std::optional<DaemonOptions> options = read_command_line(argc, argv, exit_status);
     if (!options) return exit_status;
@@ -65,10 +65,21 @@ int main(int argc, char** argv) {
     const skyig::config::LoadResult loaded = skyig::config::load_config(options->config_path);
     for (const skyig::config::ConfigError& error : loaded.errors)
         fmt::print(stderr, "{}\n", skyig::config::to_text(error));
-    if (!loaded) return kWrongUsage;
+    if (!loaded.config) return kWrongUsage;
     if (options->check) {
         fmt::print("{}\n", skyig::config::describe(*loaded.config));
         return kDone;
     }
     return skyig::server::run_daemon(*options, *loaded.config);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "skyigd: %s\n", error.what());
+        return kFailed;
+    }
 }

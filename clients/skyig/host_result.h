@@ -17,7 +17,7 @@ struct HostResult {
     /// As the image generator answers: "3.3" or "4.0"; "standby", "operate", ...
     std::string version;
     std::string mode;
-    int database_number = 0;
+    std::int8_t database_number = 0;
     std::uint64_t answers = 0;
     std::uint64_t answers_lost = 0;
     std::uint64_t restarts = 0;

@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <exception>
 #include <variant>
 
 #include "clients/skyig/host.h"
 #include "clients/skyig/options.h"
 #include "clients/skyig/shot.h"
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
     using namespace skyig::clients;
     const Invocation invocation = read_command_line(argc, argv);
     fmt::print("{}", invocation.output);
@@ -15,4 +18,15 @@ int main(int argc, char** argv) {
     if (const auto* host = std::get_if<HostOptions>(&invocation.options)) return run_host(*host);
     if (const auto* shot = std::get_if<ShotOptions>(&invocation.options)) return run_shot(*shot);
     return invocation.exit_status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "skyig: %s\n", error.what());
+        return 1;
+    }
 }

@@ -180,6 +180,16 @@ TEST_F(FrameLoopTest, RunsTheFramesAskedForWithoutAnyHost) {
     EXPECT_NEAR(painter_.last_scene.time_s, 0.29, 1e-9);
 }
 
+TEST_F(FrameLoopTest, WarmsUpUncountedAndUnheard) {
+    loop(3).warm_up();
+    EXPECT_EQ(link_.sends, 0);
+    EXPECT_EQ(painter_.last_scene.view_count, 1U);
+    loop_->run([] { return false; });
+    EXPECT_EQ(loop_->report().frames, 3U);
+    EXPECT_NEAR(loop_->report().times[0].median_ms, 1.0, 0.01);
+    EXPECT_EQ(last_answer(cigi::Version::k33).ig_frame_number, 3U);
+}
+
 TEST_F(FrameLoopTest, StopsWhenAsked) {
     int asked = 0;
     loop().run([&asked] { return ++asked > 5; });
