@@ -18,7 +18,7 @@ class UtcClock {
 
     void advance(double step_s) noexcept;
 
-    [[nodiscard]] const ephemeris::UtcClockTime& now() const noexcept { return now_; }
+    [[nodiscard]] const ephemeris::UtcClockTime& utc() const noexcept { return now_; }
     [[nodiscard]] bool running() const noexcept { return running_; }
 
   private:

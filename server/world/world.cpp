@@ -164,7 +164,7 @@ bool World::obeys() noexcept {
 }
 
 void World::reset() {
-    const ephemeris::UtcClockTime before = clock_.now();
+    const ephemeris::UtcClockTime before = clock_.utc();
     clock_ = UtcClock(default_utc_, config_.start.running);
     note_clock_step(before);
     ownship_ = configured_ownship(config_.start);
@@ -227,7 +227,7 @@ void World::operator()(const cigi::CelestialSphereControl& packet) {
     if (!obeys()) return;
     celestial_ = {packet.sun_enable, packet.moon_enable, packet.star_enable,
                   static_cast<double>(packet.star_intensity) / 100.0};
-    const ephemeris::UtcClockTime before = clock_.now();
+    const ephemeris::UtcClockTime before = clock_.utc();
     if (!clock_.apply(packet)) {
         ++counters_.clock_refused;
         return;
@@ -236,10 +236,10 @@ void World::operator()(const cigi::CelestialSphereControl& packet) {
 }
 
 void World::note_clock_step(const ephemeris::UtcClockTime& before) {
-    const double step_s = ephemeris::seconds_between(before, clock_.now());
+    const double step_s = ephemeris::seconds_between(before, clock_.utc());
     if (std::abs(step_s) <= kClockJump_s) return;
     time_s_ += step_s;
-    const ephemeris::CivilTime now = clock_.now().civil();
+    const ephemeris::CivilTime now = clock_.utc().civil();
     log_.limited("clock", kRepeatAfter_s, Severity::kInfo,
                  "clock set to {:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", now.year, now.month, now.day, now.hour,
                  now.minute, static_cast<int>(now.second));

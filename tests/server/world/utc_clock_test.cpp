@@ -22,7 +22,7 @@ CelestialSphereControl setting(int hour, int minute, bool running, bool valid = 
 }
 
 double seconds_to(const UtcClock& clock, const char* text) {
-    return ephemeris::seconds_between(clock.now(), utc(text));
+    return ephemeris::seconds_between(clock.utc(), utc(text));
 }
 
 TEST(UtcClock, RunsOrStandsAsConfigured) {

@@ -69,7 +69,7 @@ TEST(WorldLink, SilentHostIsLostOnceThePictureStaysAndTheClockRuns) {
     EXPECT_EQ(bench.world.link().losses, 1U);
     EXPECT_EQ(bench.lines_with("lost: silent"), 1U);
     EXPECT_EQ(bench.world.ownship().position.latitude_deg, 10.0);
-    EXPECT_NEAR(ephemeris::seconds_between(bench.world.clock().now(), utc("2026-06-21T12:00:10Z")), 0.0,
+    EXPECT_NEAR(ephemeris::seconds_between(bench.world.clock().utc(), utc("2026-06-21T12:00:10Z")), 0.0,
                 1e-6);
     bench.send(kHostA, ownship(12.0));
     EXPECT_EQ(bench.lines_with("is back after 10.0 s"), 1U);
@@ -171,7 +171,7 @@ TEST(WorldLink, EnteringStandbyBringsBackTheConfiguredWorld) {
     EXPECT_EQ(bench.world.ownship().position.latitude_deg, bench.config.start.latitude_deg);
     EXPECT_FALSE(bench.world.ownship().placed_by_host);
     EXPECT_TRUE(bench.world.clock().running());
-    EXPECT_EQ(ephemeris::to_iso(bench.world.clock().now()), "2026-06-21T12:00:00Z");
+    EXPECT_EQ(ephemeris::to_iso(bench.world.clock().utc()), "2026-06-21T12:00:00Z");
 }
 
 TEST(WorldLink, ConfiguredNowGoesOnWhileTheHostHasItsOwnTime) {
@@ -184,10 +184,10 @@ TEST(WorldLink, ConfiguredNowGoesOnWhileTheHostHasItsOwnTime) {
     frozen.date_time_valid = true;
     bench.send(kHostA, frozen);
     bench.wait(30.0);
-    EXPECT_EQ(ephemeris::to_iso(bench.world.clock().now()), "2027-01-01T23:00:00Z");
+    EXPECT_EQ(ephemeris::to_iso(bench.world.clock().utc()), "2027-01-01T23:00:00Z");
     bench.mode = IgMode::kStandby;
     bench.send(kHostA);
-    EXPECT_NEAR(ephemeris::seconds_between(bench.world.clock().now(), utc("2026-03-01T08:00:30Z")), 0.0,
+    EXPECT_NEAR(ephemeris::seconds_between(bench.world.clock().utc(), utc("2026-03-01T08:00:30Z")), 0.0,
                 1e-6);
 }
 
