@@ -1,6 +1,7 @@
 // The tables behind AirTables, shared by the files of this folder.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "render/sky/air_model.h"
@@ -19,17 +20,18 @@ struct Densities {
 inline constexpr int kColumnRows = 64;
 inline constexpr int kColumnAngles = 128;
 inline constexpr int kMomentRows = 16;
+inline constexpr std::size_t kMomentNodes = std::size_t{kMomentRows} * std::size_t{kSineNodes};
 inline constexpr int kProfileCells = 480;
 
 struct AirData {
-    AirModel model;
-    Shell shell;
     Medium medium{};
+    Shell shell;
     /// ln density of the molecules at even heights: cheaper than a search for the knot.
     std::vector<float> log_molecules;
     std::vector<float> columns;
     std::vector<float> moments;
     std::vector<float> log_ground;
+    AirModel model;
 
     [[nodiscard]] Densities densities(double height_m) const noexcept;
     [[nodiscard]] ColumnTable column_table() const noexcept {
@@ -43,6 +45,11 @@ struct AirData {
     [[nodiscard]] double moment_row(double height_m) const noexcept;
     [[nodiscard]] double moment_row_height_m(int row) const noexcept;
 };
+
+/// Index of a node of the moment table.
+[[nodiscard]] inline std::size_t moment_node(int row, int sine) noexcept {
+    return static_cast<std::size_t>(row) * std::size_t{kSineNodes} + static_cast<std::size_t>(sine);
+}
 
 /// Sine of the source's elevation at a node of the moment table.
 [[nodiscard]] double moment_sine(int node) noexcept;

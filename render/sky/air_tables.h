@@ -43,6 +43,7 @@ class AirTables {
 
     /// For sky views (same folder).
     [[nodiscard]] const AirData& data() const noexcept { return *data_; }
+    [[nodiscard]] std::shared_ptr<const AirData> share() const noexcept { return data_; }
 
   private:
     std::shared_ptr<const AirData> data_;

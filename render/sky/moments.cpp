@@ -16,7 +16,7 @@
 namespace skyig::render::sky {
 namespace {
 
-constexpr int kHalfSines = 8;  // view directions on either side of the local horizon
+constexpr std::size_t kHalfSines = 8;  // view directions on either side of the local horizon
 constexpr int kFirstAzimuths = 6;
 constexpr int kLaterAzimuths = 4;
 constexpr int kGatherSteps = 16;
@@ -25,7 +25,7 @@ constexpr float kLeastMean = 1e-30F;
 using NodeMoments = std::array<Lanes, kMoments>;
 
 struct Order {
-    std::vector<NodeMoments> air = std::vector<NodeMoments>(std::size_t{kMomentRows} * kSineNodes);
+    std::vector<NodeMoments> air = std::vector<NodeMoments>(kMomentNodes);
     std::vector<Lanes> ground = std::vector<Lanes>(kSineNodes);
 };
 
@@ -129,8 +129,7 @@ class Gatherer {
         const Lanes* light = light_.data();
         for (int sine = first; sine < first + count; ++sine) {
             for (int a = 0; a < azimuths_; ++a, ++light) {
-                add_radiance(view, view_x(view, a), weight, *light,
-                             order.air[static_cast<std::size_t>(row * kSineNodes + sine)]);
+                add_radiance(view, view_x(view, a), weight, *light, order.air[moment_node(row, sine)]);
                 if (row != 0 || view.side == Side::kGround) continue;
                 Lanes& ground = order.ground[static_cast<std::size_t>(sine)];
                 for (int i = 0; i < kLanes; ++i)
@@ -206,7 +205,7 @@ bool matters(const Order& order, const Order& sum) {
     constexpr float kSmallPart = 0.06F;
     for (int row = 0; row < kMomentRows; ++row) {
         for (int sine = kNightNodes + 1; sine < kSineNodes; ++sine) {
-            const auto node = static_cast<std::size_t>(row * kSineNodes + sine);
+            const std::size_t node = moment_node(row, sine);
             for (int i = 0; i < kLanes; ++i) {
                 if (order.air[node][0].v[i] > kSmallPart * sum.air[node][0].v[i]) return true;
             }
@@ -220,7 +219,7 @@ bool matters(const Order& order, const Order& sum) {
 void build_moments(AirData& data) {
     constexpr int kFewestOrders = 3;
     constexpr int kMostOrders = 12;
-    data.moments.assign(std::size_t{kMomentRows} * kSineNodes * kMoments * kLanes, 0.0F);
+    data.moments.assign(kMomentNodes * kMoments * kLanes, 0.0F);
     data.log_ground.assign(std::size_t{kSineNodes} * kLanes, 0.0F);
     Order sum;
     Order before;

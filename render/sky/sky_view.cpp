@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 #include "render/sky/path.h"
@@ -140,7 +139,7 @@ struct SkyView::State {
     std::array<Source, kMaxSources> sources{};
     std::array<Lanes, kMaxSources> light{};
     std::array<Lanes, kMaxSources> aerosol{};
-    std::optional<AirTables> tables;
+    std::shared_ptr<const AirData> air;
     double eye_height_m = kLowestEyeM;
     double source_elevation_rad = 0.0;
     double source_sine = 0.0;
@@ -156,7 +155,7 @@ struct SkyView::State {
 // 2 deg, from high up within that height over the distance of the horizon. The ground bends within about its
 // dip.
 void SkyView::State::place_rows() noexcept {
-    const Shell& shell = tables->data().shell;
+    const Shell& shell = air->shell;
     const double dip_rad = shell.dip_rad(eye_height_m);
     horizon_rad = -dip_rad;
     highest_rad = kHalfPi;
@@ -183,7 +182,7 @@ double SkyView::State::elevation_rad(Side side, int row) const noexcept {
 Node SkyView::State::node_of(const Lanes& all, const Lanes& hazy) const noexcept {
     Node node{};
     for (std::size_t row = 0; row < 3; ++row) {
-        const Spectrum& weight = tables->model().sunlight_xyz_lux[row];
+        const Spectrum& weight = air->model.sunlight_xyz_lux[row];
         for (std::size_t i = 0; i < weight.size(); ++i) {
             node[row] += weight[i] * all.v[i];
             node[row + 4] += weight[i] * hazy.v[i];
@@ -193,7 +192,7 @@ Node SkyView::State::node_of(const Lanes& all, const Lanes& hazy) const noexcept
 }
 
 void SkyView::State::march(const Path& path, int count) noexcept {
-    const AirData& data = tables->data();
+    const AirData& data = *air;
     light.fill(Lanes{});
     aerosol.fill(Lanes{});
     for (std::size_t j = 0; j < static_cast<std::size_t>(count); ++j) {
@@ -206,7 +205,7 @@ void SkyView::State::build_row(int row) noexcept {
     const Side side = row < size.sky_rows ? Side::kSky : Side::kGround;
     const int line = side == Side::kSky ? row : row - size.sky_rows;
     Grid& grid = side == Side::kSky ? sky : ground;
-    const AirData& data = tables->data();
+    const AirData& data = *air;
     const double elevation = elevation_rad(side, line);
     const double sine = line == 0 ? -data.shell.dip_sine(eye_height_m) : std::sin(elevation);
     const double cosine = std::cos(elevation);
@@ -234,7 +233,8 @@ void SkyView::State::build_row(int row) noexcept {
 }
 
 glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept {
-    if (!std::isfinite(elevation_rad) || !std::isfinite(azimuth_rad)) return glm::vec3(0.0F);
+    if (air == nullptr || !std::isfinite(elevation_rad) || !std::isfinite(azimuth_rad))
+        return glm::vec3(0.0F);
     const auto horizon = static_cast<float>(horizon_rad);
     const float around = folded(azimuth_rad);
     const float angle = side == Side::kSky ? elevation_rad - horizon : horizon - elevation_rad;
@@ -253,7 +253,7 @@ glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_
     const float cosine =
         sine * static_cast<float>(source_sine) + level * static_cast<float>(source_cosine) * std::cos(around);
     const float phase =
-        cornette_shanks_phase(static_cast<float>(tables->model().aerosol_g), std::clamp(cosine, -1.0F, 1.0F));
+        cornette_shanks_phase(static_cast<float>(air->model.aerosol_g), std::clamp(cosine, -1.0F, 1.0F));
     return glm::max(glm::vec3(node[0], node[1], node[2]) + phase * glm::vec3(node[4], node[5], node[6]),
                     glm::vec3(0.0F));
 }
@@ -273,7 +273,7 @@ SkyView& SkyView::operator=(SkyView&&) noexcept = default;
 void SkyView::begin(const AirTables& tables, double eye_height_m, double source_elevation_rad) noexcept {
     State& state = *state_;
     constexpr double kFarthestEyeM = 1e9;
-    state.tables = tables;
+    state.air = tables.share();
     state.eye_height_m =
         std::isfinite(eye_height_m) ? std::clamp(eye_height_m, kLowestEyeM, kFarthestEyeM) : kLowestEyeM;
     state.source_elevation_rad =
@@ -286,7 +286,7 @@ void SkyView::begin(const AirTables& tables, double eye_height_m, double source_
 
 bool SkyView::build_rows(int max_rows) noexcept {
     State& state = *state_;
-    if (!state.tables) return false;
+    if (!state.air) return false;
     const int all = state.size.sky_rows + state.size.ground_rows;
     if (state.rows_done == all) return true;
     const int last = std::min(all, state.rows_done + std::max(0, max_rows));
@@ -303,8 +303,7 @@ void SkyView::build_all() noexcept {
 }
 
 bool SkyView::complete() const noexcept {
-    return state_->tables.has_value() &&
-           state_->rows_done == state_->size.sky_rows + state_->size.ground_rows;
+    return state_->air != nullptr && state_->rows_done == state_->size.sky_rows + state_->size.ground_rows;
 }
 
 glm::vec3 SkyView::xyz(float elevation_rad, float relative_azimuth_rad) const noexcept {

@@ -31,6 +31,8 @@ class SkyView {
   public:
     explicit SkyView(const SkyViewSize& size = {});
     ~SkyView();
+    SkyView(const SkyView&) = delete;
+    SkyView& operator=(const SkyView&) = delete;
     SkyView(SkyView&&) noexcept;
     SkyView& operator=(SkyView&&) noexcept;
 

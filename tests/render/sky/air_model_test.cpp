@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 #include <numeric>
+#include "tests/render/sky/truth.h"
 
 namespace skyig::render::sky {
 namespace {
@@ -87,7 +88,7 @@ TEST(AirModel, AnyNumberGivesAUsableModel) {
 
 TEST(AirModel, DependsContinuouslyOnVisibility) {
     double largest = 0.0;
-    for (double visibility_m = 500.0; visibility_m < 300.0e3; visibility_m *= 1.001) {
+    for (const double visibility_m : powers(500.0, 300.0e3, 1.001)) {
         Air air;
         air.visibility_m = visibility_m;
         const AirModel here = air_model(air);

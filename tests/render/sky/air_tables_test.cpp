@@ -49,9 +49,9 @@ TEST(AirTables, OzoneFollowsBeerAndLambertThroughItsTriangle) {
 
 TEST(AirTables, TransmittanceRisesWithElevationAndHeightAndStaysInRange) {
     const AirTables tables(air_model({}));
-    for (double height_m = 0.0; height_m < 130.0e3; height_m += 4777.0) {
+    for (const double height_m : steps(0.0, 130.0e3, 4777.0)) {
         Spectrum previous{};
-        for (double elevation = -90.0; elevation <= 90.0; elevation += 0.05) {
+        for (const double elevation : steps(-90.0, 90.0, 0.05)) {
             const Spectrum here = tables.transmittance(height_m, elevation * kDeg);
             for (std::size_t i = 0; i < kWavelengths; ++i) {
                 ASSERT_GE(here[i], 0.0F);
@@ -63,7 +63,7 @@ TEST(AirTables, TransmittanceRisesWithElevationAndHeightAndStaysInRange) {
     }
     for (const double elevation : {0.5, 3.0, 30.0, 90.0}) {
         double previous = 0.0;
-        for (double height_m = 0.0; height_m < 130.0e3; height_m += 250.0) {
+        for (const double height_m : steps(0.0, 130.0e3, 250.0)) {
             const double here = tables.direct_sun_xyz(height_m, elevation * kDeg).y;
             ASSERT_GE(here, previous * (1.0 - 2e-4)) << height_m << ' ' << elevation;
             previous = here;
@@ -81,7 +81,7 @@ TEST(AirTables, SunSetsSmoothlyOverItsDisc) {
     EXPECT_EQ(tables.direct_sun_xyz(0.0, -90.0 * kDeg).y, 0.0);
     double previous = up;
     double largest = 0.0;
-    for (double elevation = 0.3; elevation > -0.3; elevation -= 0.001) {
+    for (const double elevation : steps(0.3, -0.3, -0.001)) {
         const double here = tables.direct_sun_xyz(0.0, elevation * kDeg).y;
         largest = std::max(largest, std::abs(here - previous) / up);
         previous = here;

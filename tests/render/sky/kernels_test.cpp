@@ -12,6 +12,7 @@
 #include "render/sky/air_tables.h"
 #include "render/sky/path.h"
 #include "render/sky/phase.h"
+#include "tests/render/sky/truth.h"
 
 namespace skyig::render::sky {
 namespace {
@@ -31,12 +32,12 @@ std::vector<const Kernels*> variants() {
 TEST(Kernels, ExponentialKeepsItsBound) {
     for (const Kernels* variant : variants()) {
         double largest = 0.0;
-        for (float x = -87.0F; x < 88.0F; x += 0.00371F) {
+        for (const double x : steps(-87.0, 88.0, 0.00371)) {
             Lanes lanes{};
             for (float& value : lanes.v)
-                value = x;
+                value = f32(x);
             variant->exponential(lanes);
-            const double exact = std::exp(static_cast<double>(x));
+            const double exact = std::exp(static_cast<double>(f32(x)));
             for (const float value : lanes.v) {
                 largest = std::max(largest, std::abs(static_cast<double>(value) / exact - 1.0));
             }

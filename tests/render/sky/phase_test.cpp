@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "render/sky/quadrature.h"
+#include "tests/render/sky/truth.h"
 
 namespace skyig::render::sky {
 namespace {
@@ -46,7 +47,7 @@ TEST(Phase, CornetteShanksIntegratesToOneWithItsMeanCosine) {
 
 TEST(Phase, FloatFollowsDoubleInTheAureole) {
     double worst = 0.0;
-    for (double angle = 0.0; angle < 3.1416; angle += 1e-3) {
+    for (const double angle : steps(0.0, 3.1416, 1e-3)) {
         const double exact = cornette_shanks_phase(0.8, std::cos(angle));
         const double single = cornette_shanks_phase(0.8F, std::cos(static_cast<float>(angle)));
         worst = std::max(worst, std::abs(single / exact - 1.0));

@@ -83,9 +83,9 @@ TEST(SkyView, SlicesGiveTheSameBits) {
         EXPECT_FALSE(sliced.complete());
     EXPECT_EQ(calls, (whole.size().sky_rows + whole.size().ground_rows + 6) / 7);
     EXPECT_TRUE(sliced.build_rows(1));
-    for (float elevation = -1.57F; elevation < 1.57F; elevation += 0.0173F) {
-        for (float azimuth = 0.0F; azimuth < 6.3F; azimuth += 0.37F) {
-            ASSERT_EQ(whole.xyz(elevation, azimuth), sliced.xyz(elevation, azimuth));
+    for (const double elevation : steps(-1.57, 1.57, 0.0173)) {
+        for (const double azimuth : steps(0.0, 6.3, 0.37)) {
+            ASSERT_EQ(whole.xyz(f32(elevation), f32(azimuth)), sliced.xyz(f32(elevation), f32(azimuth)));
         }
     }
 }
@@ -102,8 +102,8 @@ TEST(SkyView, CanBeBuiltAgainForOtherAir) {
         view->begin(misty, 100.0, 0.7);
         view->build_all();
     }
-    for (float elevation = -1.57F; elevation < 1.57F; elevation += 0.0173F) {
-        ASSERT_EQ(reused.xyz(elevation, 1.0F), fresh.xyz(elevation, 1.0F));
+    for (const double elevation : steps(-1.57, 1.57, 0.0173)) {
+        ASSERT_EQ(reused.xyz(f32(elevation), 1.0F), fresh.xyz(f32(elevation), 1.0F));
     }
 }
 
@@ -111,11 +111,12 @@ TEST(SkyView, IsSymmetricAboutTheSource) {
     SkyView view;
     view.begin(clear_air(), 100.0, 0.3);
     view.build_all();
-    for (float elevation = -1.5F; elevation < 1.57F; elevation += 0.11F) {
-        for (float azimuth = 0.01F; azimuth < 3.1F; azimuth += 0.173F) {
-            const float luminance = view.xyz(elevation, azimuth).y;
-            EXPECT_FLOAT_EQ(view.xyz(elevation, -azimuth).y, luminance);
-            EXPECT_NEAR(view.xyz(elevation, azimuth + 6.2831853F).y / luminance, 1.0F, 1e-4F);
+    for (const double elevation : steps(-1.5, 1.57, 0.11)) {
+        for (const double azimuth : steps(0.01, 3.1, 0.173)) {
+            const float luminance = view.xyz(f32(elevation), f32(azimuth)).y;
+            EXPECT_FLOAT_EQ(view.xyz(f32(elevation), f32(-azimuth)).y, luminance);
+            EXPECT_NEAR(view.xyz(f32(elevation), f32(azimuth + 6.283185307179586)).y / luminance, 1.0F,
+                        1e-4F);
         }
     }
 }
@@ -125,9 +126,9 @@ TEST(SkyView, DoesNotDependOnAzimuthUnderAZenithSun) {
     view.begin(clear_air(), 2.0, 90.0 * kDeg);
     view.build_all();
     double largest = 0.0;
-    for (double elevation = -89.0; elevation < 90.0; elevation += 1.7) {
+    for (const double elevation : steps(-89.0, 90.0, 1.7)) {
         const auto ahead = static_cast<double>(view.xyz(radians(elevation), 0.0F).y);
-        for (double azimuth = 10.0; azimuth <= 180.0; azimuth += 17.0) {
+        for (const double azimuth : steps(10.0, 180.0, 17.0)) {
             largest =
                 std::max(largest, std::abs(view.xyz(radians(elevation), radians(azimuth)).y / ahead - 1.0));
         }
@@ -177,11 +178,9 @@ TEST(SkyView, ChangesLittleWhenTheSourceOrTheEyeMovesLittle) {
         there.begin(clear_air(), 5001.0, (source - 0.005) * kDeg);
         here.build_all();
         there.build_all();
-        for (float above = 0.001F; above < 1.5F; above *= 1.7F) {
-            const auto a = static_cast<double>(
-                here.xyz(static_cast<float>(here.horizon_elevation_rad()) + above, 0.7F).y);
-            const auto b = static_cast<double>(
-                there.xyz(static_cast<float>(there.horizon_elevation_rad()) + above, 0.7F).y);
+        for (const double above : powers(0.001, 1.5, 1.7)) {
+            const auto a = static_cast<double>(here.xyz(f32(here.horizon_elevation_rad() + above), 0.7F).y);
+            const auto b = static_cast<double>(there.xyz(f32(there.horizon_elevation_rad() + above), 0.7F).y);
             largest = std::max(largest, std::abs(a - b) / (a + 1e-4));
         }
     }
@@ -192,7 +191,7 @@ TEST(SkyView, ChangesLittleWhenTheSourceOrTheEyeMovesLittle) {
 TEST(SkyView, DarkensStepByStepThroughTwilight) {
     SkyView view;
     float previous = std::numeric_limits<float>::infinity();
-    for (double source = 5.0; source >= -20.0; source -= 0.5) {
+    for (const double source : steps(5.0, -20.0, -0.5)) {
         view.begin(clear_air(), 2.0, source * kDeg);
         view.build_all();
         const float zenith = view.xyz(radians(90.0), 0.0F).y;

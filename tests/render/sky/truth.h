@@ -14,6 +14,29 @@ namespace skyig::render::sky {
 
 inline constexpr double kDeg = 3.14159265358979323846 / 180.0;
 
+/// first, first + step, ... up to but without `end`; a negative step counts down.
+inline std::vector<double> steps(double first, double end, double step) {
+    const auto count = static_cast<std::size_t>(std::ceil((end - first) / step - 1e-9));
+    std::vector<double> values(count);
+    for (std::size_t i = 0; i < count; ++i)
+        values[i] = first + static_cast<double>(i) * step;
+    return values;
+}
+
+/// first, first * factor, ... below `end`.
+inline std::vector<double> powers(double first, double end, double factor) {
+    const auto count = static_cast<std::size_t>(std::ceil(std::log(end / first) / std::log(factor)));
+    std::vector<double> values(count);
+    for (std::size_t i = 0; i < count; ++i)
+        values[i] = first * std::pow(factor, static_cast<double>(i));
+    return values;
+}
+
+/// Look-ups take single precision.
+inline float f32(double value) {
+    return static_cast<float>(value);
+}
+
 struct Table {
     std::vector<std::string> columns;
     std::vector<std::vector<std::string>> rows;
@@ -63,6 +86,7 @@ class Errors {
     [[nodiscard]] double quantile(double part) const {
         if (values_.empty()) return 0.0;
         std::vector<double> sorted;
+        sorted.reserve(values_.size());
         for (double value : values_)
             sorted.push_back(std::abs(value));
         std::sort(sorted.begin(), sorted.end());
