@@ -112,6 +112,7 @@ void FrameLoop::watch(const FramePacer::Slot& slot) {
     if (static_cast<double>(watched_.slots) * pacer_.period_s() < kWatchFor_s) return;
     tell_late_frames();
     tell_dropped_datagrams();
+    tell_what_is_drawn_otherwise();
     watched_ = {};
 }
 
@@ -119,9 +120,24 @@ void FrameLoop::tell_late_frames() {
     if (static_cast<double>(watched_.late) <= kToldLatePart * static_cast<double>(watched_.frames)) return;
     parts_.log.limited(
         "late frames", kRepeatAfter_s, Severity::kWarning,
-        "{} of the last {} frames were late: a frame takes {:.1f} ms (median), {:g} Hz leaves {:.1f} ms",
-        watched_.late, watched_.frames, times_.frame().quantile_ms(0.5), config_.daemon.rate_hz,
-        pacer_.period_s() * 1e3);
+        "{} of the last {} frames were late: {:g} Hz leaves {:.1f} ms, a frame has taken {:.1f} ms (median), "
+        "{:.1f} ms (p95) since the start",
+        watched_.late, watched_.frames, config_.daemon.rate_hz, pacer_.period_s() * 1e3,
+        times_.frame().quantile_ms(0.5), times_.frame().quantile_ms(0.95));
+}
+
+void FrameLoop::tell_what_is_drawn_otherwise() {
+    if (scenes_.date_clamped()) {
+        parts_.log.limited("date clamped", kRepeatAfter_s, Severity::kWarning,
+                           "the world's date is outside 1900..2100: the sky of the nearest end is drawn");
+    }
+    if (scenes_.eye_spread_m() > config::kMaxEyeSpread_m) {
+        parts_.log.limited(
+            "eye spread", kRepeatAfter_s, Severity::kWarning,
+            "the host has moved a view's eye {:.0f} m from the mean of all, from which all are drawn; "
+            "beyond {:g} m use a daemon of its own",
+            scenes_.eye_spread_m(), config::kMaxEyeSpread_m);
+    }
 }
 
 void FrameLoop::tell_dropped_datagrams() {

@@ -58,6 +58,7 @@ class FrameLoop {
     void watch(const FramePacer::Slot& slot);
     void tell_late_frames();
     void tell_dropped_datagrams();
+    void tell_what_is_drawn_otherwise();
     void report_host(RunReport& report) const;
 
     const config::Config& config_;
