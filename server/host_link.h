@@ -17,6 +17,8 @@ class DatagramTaker {
     DatagramTaker() = default;
     DatagramTaker(const DatagramTaker&) = delete;
     DatagramTaker& operator=(const DatagramTaker&) = delete;
+    DatagramTaker(DatagramTaker&&) = delete;
+    DatagramTaker& operator=(DatagramTaker&&) = delete;
     virtual ~DatagramTaker() = default;
 
     /// The bytes live as long as the call.
@@ -28,6 +30,8 @@ class HostLink {
     HostLink() = default;
     HostLink(const HostLink&) = delete;
     HostLink& operator=(const HostLink&) = delete;
+    HostLink(HostLink&&) = delete;
+    HostLink& operator=(HostLink&&) = delete;
     virtual ~HostLink() = default;
 
     /// Hands on every datagram that has come, oldest first. Waits for nothing, allocates nothing.

@@ -43,6 +43,8 @@ class ImageWriter {
     ~ImageWriter();
     ImageWriter(const ImageWriter&) = delete;
     ImageWriter& operator=(const ImageWriter&) = delete;
+    ImageWriter(ImageWriter&&) = delete;
+    ImageWriter& operator=(ImageWriter&&) = delete;
 
     /// A buffer to fill, or null when all are under way (the frame then counts as skipped). Does not block on
     /// I/O.

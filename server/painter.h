@@ -15,6 +15,8 @@ class Painter {
     Painter() = default;
     Painter(const Painter&) = delete;
     Painter& operator=(const Painter&) = delete;
+    Painter(Painter&&) = delete;
+    Painter& operator=(Painter&&) = delete;
     virtual ~Painter() = default;
 
     /// The work that all channels of this frame share. Never throws, allocates nothing in steady state.

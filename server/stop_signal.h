@@ -11,6 +11,8 @@ class StopSignal {
     ~StopSignal();
     StopSignal(const StopSignal&) = delete;
     StopSignal& operator=(const StopSignal&) = delete;
+    StopSignal(StopSignal&&) = delete;
+    StopSignal& operator=(StopSignal&&) = delete;
 
     /// True from the first signal on; does not wait.
     [[nodiscard]] bool requested() noexcept;

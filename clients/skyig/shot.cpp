@@ -63,7 +63,7 @@ config::Config base_config(const ShotOptions& options) {
     config::LoadResult loaded = config::load_config(options.config_path);
     for (const config::ConfigError& error : loaded.errors)
         fmt::print(stderr, "{}\n", config::to_text(error));
-    if (!loaded) throw ConfigErrors{};
+    if (!loaded.config) throw ConfigErrors{};
     return std::move(*loaded.config);
 }
 

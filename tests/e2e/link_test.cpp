@@ -72,6 +72,8 @@ TEST_P(LinkTest, FliesSixtyFramesAndIsAnswered) {
     const Finished host = run(host_command(site, version, order, "1"));
     ASSERT_EQ(host.status, 0) << host.err << daemon.err_so_far();
     const Json told = Json::parse(host.out);
+    // By then every message of the host has been taken in.
+    ASSERT_TRUE(daemon.wait_for_err(" lost: "));
     const Json report = stop(daemon, site);
 
     EXPECT_EQ(told.at("answers").at("version"), version);
