@@ -1,5 +1,6 @@
 #include "render/discs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,6 +13,14 @@ namespace {
 
 // Linear limb darkening at red, green and blue (fits to Neckel and Labs 1994 near 610, 550 and 465 nm).
 const glm::vec3 kLimb{0.53F, 0.60F, 0.72F};
+
+// Where the air's transmittance is taken for a disc: the tables fade it out while a disc sets, which the
+// shader does by cutting the disc, so it is asked no lower than where the whole disc still stands above the
+// horizon.
+double disc_elevation_rad(const glm::dvec3& direction_enu, const SkyLight& light) {
+    constexpr double kWholeDisc_rad = 0.0048;
+    return std::max(horizontal_of(direction_enu).elevation_rad, light.horizon_elevation_rad + kWholeDisc_rad);
+}
 
 }  // namespace
 
@@ -47,7 +56,13 @@ DiscFrame disc_frame(const glm::dvec3& centre_enu, double angular_radius_rad, do
     frame.radius = static_cast<float>(std::tan(angular_radius_rad));
     frame.pixel_rad = static_cast<float>(pixel_rad);
     frame.horizon_rad = static_cast<float>(light.horizon_elevation_rad);
-    frame.background_cd_m2 = light.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kSky);
+    const double aside_rad = angular_radius_rad / std::max(std::cos(at.elevation_rad), angular_radius_rad);
+    const auto sky = [&](double up_rad, double right_rad) {
+        return light.rgb_cd_m2(at.elevation_rad + up_rad, at.azimuth_rad + right_rad, Side::kSky);
+    };
+    frame.background_cd_m2 = sky(0.0, 0.0);
+    frame.background_up = 0.5F * (sky(angular_radius_rad, 0.0) - sky(-angular_radius_rad, 0.0));
+    frame.background_right = 0.5F * (sky(0.0, aside_rad) - sky(0.0, -aside_rad));
     return frame;
 }
 
@@ -65,6 +80,8 @@ DiscPass::DiscPass(std::string_view fragment)
       horizon_sin_(program_.uniform("u_horizon_sin")),
       horizon_cos_(program_.uniform("u_horizon_cos")),
       background_(program_.uniform("u_background_cd_m2")),
+      background_right_(program_.uniform("u_background_right")),
+      background_up_(program_.uniform("u_background_up")),
       dither_(program_.uniform("u_dither_codes")) {}
 
 void DiscPass::prepare(const DiscFrame& frame, const shaders32::ToneParameters& tone, bool dither) const {
@@ -77,6 +94,8 @@ void DiscPass::prepare(const DiscFrame& frame, const shaders32::ToneParameters& 
     program_.set(horizon_sin_, std::sin(frame.horizon_rad));
     program_.set(horizon_cos_, std::cos(frame.horizon_rad));
     program_.set(background_, frame.background_cd_m2);
+    program_.set(background_right_, frame.background_right);
+    program_.set(background_up_, frame.background_up);
     program_.set(dither_, dither ? 1.0F : 0.0F);
     tone_.set(program_, tone);
 }
@@ -97,8 +116,8 @@ void SunDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyLi
     const Sun& sun = scene.sun;
     pass_.prepare(disc_frame(sun.direction_enu, sun.angular_radius_rad, pixel_rad, light), tone, dither);
     const double sine = std::sin(sun.angular_radius_rad);
-    const glm::dvec3 illuminance = air.direct_sun_xyz(
-        light.eye_height_m, horizontal_of(sun.direction_enu).elevation_rad, sun.distance_au);
+    const glm::dvec3 illuminance =
+        air.direct_sun_xyz(light.eye_height_m, disc_elevation_rad(sun.direction_enu, light), sun.distance_au);
     const glm::dvec3 mean = illuminance / (std::numbers::pi * sine * sine);
     pass_.program().set(disc_, rec709_from_xyz(glm::vec3{mean}));
     pass_.program().set(limb_, kLimb);
@@ -116,7 +135,7 @@ void MoonDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyL
     const DiscFrame frame = disc_frame(moon.direction_enu, moon.angular_radius_rad, pixel_rad, light);
     pass_.prepare(frame, tone, dither);
     const glm::dvec3 through =
-        air.transmittance_rgb(light.eye_height_m, horizontal_of(moon.direction_enu).elevation_rad);
+        air.transmittance_rgb(light.eye_height_m, disc_elevation_rad(moon.direction_enu, light));
     const glm::dvec3 face = night::moon_tint_rgb() * night::moon_face_cd_m2(moon) * through;
     const glm::dvec3 dark_side = glm::dvec3{night::earthshine_cd_m2(moon.phase_angle_rad)} * through;
     const glm::vec3 to_sun{moon.to_sun_enu};

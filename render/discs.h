@@ -32,7 +32,9 @@ struct DiscFrame {
     float radius = 0.0F;     ///< tangent of the angular radius
     float pixel_rad = 0.0F;  ///< softening of edges
     float horizon_rad = 0.0F;
-    glm::vec3 background_cd_m2{0.0F};
+    glm::vec3 background_cd_m2{0.0F};  ///< of the sky at the centre,
+    glm::vec3 background_right{0.0F};  ///< and what it gains over one radius
+    glm::vec3 background_up{0.0F};
 };
 
 /// Axes of a disc about its centre: up is towards the zenith, right completes them as the viewer sees it.
@@ -56,7 +58,7 @@ class DiscPass {
     gl::Mesh square_;
     ToneUniforms tone_;
     int clip_, centre_, right_, up_, extent_, radius_, pixel_, horizon_sin_, horizon_cos_, background_,
-        dither_;
+        background_right_, background_up_, dither_;
 };
 
 class SunDisc {

@@ -22,13 +22,24 @@ struct DomeVertex {
 /// What decides where rows and columns lie.
 struct DomeLayout {
     double horizon_elevation_rad = 0.0;
-    /// The light source that the mesh is turned to.
-    double source_elevation_rad = 0.0;
     /// Angle over which the horizon's edge is softened, radians.
     double edge_rad = 1e-3;
-
-    friend bool operator==(const DomeLayout&, const DomeLayout&) = default;
+    /// The light source that the mesh is turned to, and whether it draws vertices to itself.
+    double first_elevation_rad = 0.0;
+    bool first_lights = false;
+    /// A second one, its azimuth from the first.
+    double second_elevation_rad = 0.0;
+    double second_azimuth_rad = 0.0;
+    bool second_lights = false;
 };
+
+/// Where the mesh is best laid for this light: turned to the Sun if it lights the air, else to the Moon.
+[[nodiscard]] DomeLayout dome_layout(const SkyLight& light, double edge_rad) noexcept;
+/// Azimuth that the mesh of dome_layout() is turned to.
+[[nodiscard]] double dome_azimuth_rad(const SkyLight& light) noexcept;
+/// Whether a mesh laid out for `held` still serves `wanted`: no edge off by 1/20 of its softening, no source
+/// by 0.3 deg.
+[[nodiscard]] bool still_serves(const DomeLayout& held, const DomeLayout& wanted) noexcept;
 
 class Dome {
   public:
@@ -41,19 +52,19 @@ class Dome {
     /// Places the vertices. Columns and rows are counted as above whatever the layout.
     void lay_out(const DomeLayout& layout);
     /// Colours the vertices: display code 0..1, before dither.
-    void shade(const SkyLight& light, double source_azimuth_rad, const shaders64::ToneParameters& tone);
+    void shade(const SkyLight& light, const shaders64::ToneParameters& tone);
 
     [[nodiscard]] std::span<const DomeVertex> vertices() const noexcept { return vertices_; }
     [[nodiscard]] std::span<const std::uint32_t> indices() const noexcept { return indices_; }
     [[nodiscard]] const DomeLayout& layout() const noexcept { return layout_; }
 
-    /// Turns mesh axes about the vertical so that y points to the source's azimuth.
-    [[nodiscard]] static glm::dmat3 enu_from_mesh(double source_azimuth_rad) noexcept;
+    /// Turns mesh axes about the vertical so that y points to `azimuth_rad`.
+    [[nodiscard]] static glm::dmat3 enu_from_mesh(double azimuth_rad) noexcept;
 
   private:
     struct Row {
-        double elevation_rad;        // of the vertices
-        double light_elevation_rad;  // where the colour is taken
+        double elevation_rad;      // of the vertices
+        double above_horizon_rad;  // where the colour is taken
         Side side;
     };
     std::vector<Row> rows_;

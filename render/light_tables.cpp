@@ -1,8 +1,6 @@
 #include "render/light_tables.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "render/night/moon_light.h"
@@ -11,13 +9,7 @@ namespace skyig::render {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-// Beyond these steps the picture in use is wrong rather than late.
-bool is_jump(const sky::SkyView& view, double elevation_rad, double height_m) {
-    return std::abs(view.source_elevation_rad() - elevation_rad) > 0.5 * kDegree ||
-           std::abs(view.eye_height_m() - height_m) > 200.0 + 0.2 * std::abs(view.eye_height_m());
-}
+constexpr double kDegree = glm::radians(1.0);
 
 double sunlight_lux(const sky::AirModel& model) {
     double sum = 0.0;
@@ -26,112 +18,100 @@ double sunlight_lux(const sky::AirModel& model) {
     return sum;
 }
 
-// Moonlit air fades in while the Sun sinks from 3 to 6 degrees: before, it is less than a display code.
-double moon_weight(double sun_elevation_rad) {
-    const double t = std::clamp((-sun_elevation_rad / kDegree - 3.0) / 3.0, 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
-
-sky::AirTables make_air(Air air) {
-    return sky::AirTables(sky::air_model(air));
-}
-
 }  // namespace
 
 LightTables::LightTables() = default;
 
-LightTables::~LightTables() {
-    if (next_air_.valid()) next_air_.wait();
-}
-
-Held LightTables::held() const noexcept {
+Held LightTables::held(const Scene& scene) const noexcept {
     Held held;
     held.air_valid = air_.has_value();
-    held.air = air_state_;
-    held.sun_sky_valid = sun_.front_air != 0 && sun_.front_air == air_revision_;
-    held.moon_sky_valid = moon_.front_air != 0 && moon_.front_air == air_revision_;
-    if (sun_.front_air != 0) {
-        held.sun_sky_elevation_rad = sun_.front.source_elevation_rad();
-        held.sun_sky_height_m = sun_.front.eye_height_m();
-    }
-    if (moon_.front_air != 0) {
-        held.moon_sky_elevation_rad = moon_.front.source_elevation_rad();
-        held.moon_sky_height_m = moon_.front.eye_height_m();
-    }
+    // Compared as the model sees it: temperature, or a visibility beyond its range, makes no new air.
+    held.air_fresh = air_.has_value() && air_->model() == sky::air_model(scene.air);
+    held.sun_sky_valid = sun_.front_made.air != 0 && sun_.front_made.air == air_revision_;
+    held.moon_sky_valid = moon_.front_made.air != 0 && moon_.front_made.air == air_revision_;
+    held.sun_sky_elevation_rad = sun_.front_made.elevation_rad;
+    held.sun_sky_height_m = sun_.front_made.height_m;
+    held.moon_sky_elevation_rad = moon_.front_made.elevation_rad;
+    held.moon_sky_height_m = moon_.front_made.height_m;
     return held;
 }
 
 void LightTables::update_air(const Scene& scene, const Plan& plan) {
     if (!air_) {
-        air_ = make_air(scene.air);
-        air_state_ = scene.air;
+        air_.emplace(sky::air_model(scene.air));
         ++air_revision_;
         return;
     }
-    if (next_air_.valid()) {
-        if (++next_air_age_ < kAirLatencyFrames) return;
-        air_ = next_air_.get();
-        air_state_ = next_air_state_;
-        ++air_revision_;
+    if (next_air_age_) {
+        if (++*next_air_age_ < kAirLatencyFrames) return;
+        next_air_age_.reset();
+        if (auto tables = builder_.take()) {
+            air_ = std::move(tables);
+            ++air_revision_;
+        }
         return;
     }
     if (!plan.needs(Pass::kAirTables)) return;
-    next_air_state_ = scene.air;
+    builder_.request(sky::air_model(scene.air));
     next_air_age_ = 0;
-    next_air_ = std::async(std::launch::async, make_air, scene.air);
 }
 
-void LightTables::update_view(View& view, bool needed, double elevation_rad, double height_m) {
+void LightTables::update_view(View& view, bool needed, bool matters, double elevation_rad, double height_m) {
+    const auto begin = [&] {
+        view.back.begin(*air_, height_m, elevation_rad);
+        view.back_made = {air_revision_, elevation_rad, height_m};
+        view.building = true;
+    };
     const auto take_over = [&] {
         std::swap(view.front, view.back);
-        view.front_air = view.back_air;
+        view.front_made = view.back_made;
         view.building = false;
         ++revision_;
     };
-    const bool lost =
-        view.front_air == 0 || is_jump(view.building ? view.back : view.front, elevation_rad, height_m);
+    // Beyond these steps the picture in use is wrong rather than late.
+    const Made& latest = view.building ? view.back_made : view.front_made;
+    const bool lost = latest.air == 0 || std::abs(latest.elevation_rad - elevation_rad) > 0.5 * kDegree ||
+                      std::abs(latest.height_m - height_m) > 200.0 + 0.2 * std::abs(latest.height_m);
     if (needed && lost) {
-        view.back.begin(*air_, height_m, elevation_rad);
-        view.back_air = air_revision_;
-        view.back.build_all();
-        take_over();
-        return;
-    }
-    if (!view.building && needed) {
-        view.back.begin(*air_, height_m, elevation_rad);
-        view.back_air = air_revision_;
-        view.building = true;
+        begin();
+        if (!matters) view.front_made.air = 0;
+        if (matters) {
+            view.back.build_all();
+            take_over();
+            jumped_ = true;
+            return;
+        }
+    } else if (needed && !view.building) {
+        begin();
     }
     if (view.building && view.back.build_rows(kRowsAFrame)) take_over();
 }
 
 void LightTables::update(const Scene& scene, const Plan& plan) {
+    jumped_ = false;
     update_air(scene, plan);
     const double sun_rad = horizontal_of(scene.sun.direction_enu).elevation_rad;
     const double moon_rad = horizontal_of(scene.moon.direction_enu).elevation_rad;
-    update_view(sun_, plan.needs(Pass::kSunSky), sun_rad, scene.eye.height_m);
-    update_view(moon_, plan.needs(Pass::kMoonSky), moon_rad, scene.eye.height_m);
+    update_view(sun_, plan.needs(Pass::kSunSky), plan.sun_share > 0.0, sun_rad, scene.eye.height_m);
+    update_view(moon_, plan.needs(Pass::kMoonSky), plan.moon_share > 0.0, moon_rad, scene.eye.height_m);
 }
 
 SkyLight LightTables::light(const Scene& scene, const Plan& plan) const noexcept {
     SkyLight light;
     light.eye_height_m = scene.eye.height_m;
-    const Horizontal sun = horizontal_of(scene.sun.direction_enu);
-    const double radius_m = air_->model().ground_radius_m;
-    const double h = std::max(scene.eye.height_m, 0.0);
-    light.horizon_elevation_rad = -std::atan2(std::sqrt(h * (2.0 * radius_m + h)), radius_m);
-    if (plan.moon_lights_air && moon_.front_air != 0) {
-        const double share = night::moon_illuminance_lux(scene.moon.phase_angle_rad, scene.moon.distance_km) /
-                             sunlight_lux(air_->model()) * moon_weight(sun.elevation_rad);
-        const glm::dvec3 tint = night::moon_tint_rgb();
-        light.moon = {&moon_.front, horizontal_of(scene.moon.direction_enu).azimuth_rad,
-                      glm::vec3{glm::dvec3{0.5 * (tint.x + tint.y), 1.0, tint.z} * share}};
-        light.horizon_elevation_rad = moon_.front.horizon_elevation_rad();
+    light.horizon_elevation_rad = horizon_elevation_rad(scene.eye.height_m);
+    if (plan.sun_share > 0.0 && sun_.front_made.air != 0) {
+        const double share =
+            plan.sun_share * scene.sun.unobscured / (scene.sun.distance_au * scene.sun.distance_au);
+        light.sun = {&sun_.front, horizontal_of(scene.sun.direction_enu),
+                     glm::vec3{static_cast<float>(share)}};
     }
-    if (plan.sun_lights_air && sun_.front_air != 0) {
-        const double share = scene.sun.unobscured / (scene.sun.distance_au * scene.sun.distance_au);
-        light.sun = {&sun_.front, sun.azimuth_rad, glm::vec3{static_cast<float>(share)}};
-        light.horizon_elevation_rad = sun_.front.horizon_elevation_rad();
+    if (plan.moon_share > 0.0 && moon_.front_made.air != 0) {
+        const double share = plan.moon_share *
+                             night::moon_illuminance_lux(scene.moon.phase_angle_rad, scene.moon.distance_km) /
+                             sunlight_lux(air_->model());
+        light.moon = {&moon_.front, horizontal_of(scene.moon.direction_enu),
+                      glm::vec3{night::moon_tint_xyz() * share}};
     }
     return light;
 }

@@ -1,13 +1,13 @@
-// Owns the direction tables of sunlit and moonlit air and keeps them fresh without ever holding a frame up: a
-// new table is built in slices, a fixed number of rows a frame, beside the one in use; new air is computed on
-// a thread of its own and taken over a fixed number of frames later. What a frame sees depends on frame
-// numbers alone, never on measured time.
+// Owns the direction tables of sunlit and moonlit air and keeps them fresh: a new table is built in slices, a
+// fixed number of rows a frame, beside the one in use; new air is computed on a thread of its own and taken
+// over a fixed number of frames later. What a frame sees depends on the frames before it alone, never on
+// measured time; should the machine need longer for new air than those frames last, that one frame waits.
 #pragma once
 
 #include <cstdint>
-#include <future>
 #include <optional>
 
+#include "render/air_builder.h"
 #include "render/plan.h"
 #include "render/scene.h"
 #include "render/sky/air_tables.h"
@@ -18,19 +18,19 @@ namespace skyig::render {
 
 class LightTables {
   public:
-    /// Frames from the first sight of new air to its use, and over which one direction table is built.
-    static constexpr std::uint64_t kAirLatencyFrames = 20;
+    /// Frames from the first sight of new air to its use, and rows of a direction table built in one frame.
+    static constexpr std::uint64_t kAirLatencyFrames = 30;
     static constexpr int kRowsAFrame = 10;
 
     LightTables();
-    ~LightTables();
     LightTables(const LightTables&) = delete;
     LightTables& operator=(const LightTables&) = delete;
 
-    [[nodiscard]] Held held() const noexcept;
+    /// What the tables are fit for, seen from this scene.
+    [[nodiscard]] Held held(const Scene& scene) const noexcept;
 
-    /// Follows the plan. The first call, and one that finds the source or the eye somewhere else altogether,
-    /// builds whole tables at once.
+    /// Follows the plan. The first call, and one that finds a source that matters or the eye somewhere else
+    /// altogether, builds whole tables at once.
     void update(const Scene& scene, const Plan& plan);
 
     /// The frame's light, from the tables in use.
@@ -39,30 +39,38 @@ class LightTables {
     /// Rises by one whenever a table in use is replaced.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
+    /// Whether the last update() replaced a table because Sun, Moon or eye had jumped.
+    [[nodiscard]] bool jumped() const noexcept { return jumped_; }
+
     /// Precondition: update() was called.
     [[nodiscard]] const sky::AirTables& air() const noexcept { return *air_; }
 
   private:
+    /// What a table was asked to be made for.
+    struct Made {
+        std::uint64_t air = 0;  ///< revision of the air, 0: never made
+        double elevation_rad = 0.0;
+        double height_m = 0.0;
+    };
     struct View {
         sky::SkyView front;
         sky::SkyView back;
-        std::uint64_t front_air = 0;  // revision of the air it was made of, 0: none
-        std::uint64_t back_air = 0;
+        Made front_made;
+        Made back_made;
         bool building = false;
     };
     void update_air(const Scene& scene, const Plan& plan);
-    void update_view(View& view, bool needed, double elevation_rad, double height_m);
+    void update_view(View& view, bool needed, bool matters, double elevation_rad, double height_m);
 
     std::optional<sky::AirTables> air_;
-    Air air_state_;
     std::uint64_t air_revision_ = 0;
-    std::future<sky::AirTables> next_air_;
-    Air next_air_state_;
-    std::uint64_t next_air_age_ = 0;
+    AirBuilder builder_;
+    std::optional<std::uint64_t> next_air_age_;  // frames since the request, if there is one
 
     View sun_;
     View moon_;
     std::uint64_t revision_ = 0;
+    bool jumped_ = false;
 };
 
 }  // namespace skyig::render

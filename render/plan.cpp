@@ -2,57 +2,43 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "render/geometry.h"
 
 namespace skyig::render {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kEarthRadius_m = 6371e3;
+constexpr double kDegree = glm::radians(1.0);
 
-// Below this the Sun adds less than a hundredth of the natural night.
-constexpr double kSunGone_rad = -18.5 * kDegree;
-// Moonlit air is lost in twilight while the Sun is above this.
-constexpr double kMoonMatters_rad = -3.0 * kDegree;
 // A source moves this far before its table is stale: 1 % of luminance in the steepest twilight.
 constexpr double kStaleAngle_rad = 0.01 * kDegree;
-
-double elevation_of(const glm::dvec3& direction) {
-    return std::atan2(direction.z, std::hypot(direction.x, direction.y));
-}
-
-double horizon_of(double height_m) {
-    const double h = std::max(height_m, 0.0);
-    return -std::atan2(std::sqrt(h * (2.0 * kEarthRadius_m + h)), kEarthRadius_m);
-}
 
 bool height_is_stale(double now_m, double held_m) {
     return std::abs(now_m - held_m) > std::max(2.0, 0.005 * (std::abs(held_m) + 100.0));
 }
 
-// Faintest star that a practised eye sees against a background (Schaefer 1990, from Knoll et al.): V
-// magnitude.
-double faintest_visible_mag(double background_cd_m2) {
-    const double nanolamberts = std::max(background_cd_m2, 0.0) / 3.1831e-6;
-    const bool dark = nanolamberts <= 1500.0;
-    const double c = std::pow(10.0, dark ? -9.80 : -8.35);
-    const double k = std::pow(10.0, dark ? -1.90 : -5.90);
-    const double root = 1.0 + std::sqrt(k * nanolamberts);
-    return -16.57 - 2.5 * std::log10(c * root * root);
-}
-
 constexpr double kBrightestStar_mag = -1.46;
-// Beyond the eye's limit a star still brightens its pixels by a fraction of a display code.
-constexpr double kStarMargin_mag = 1.0;
+// Beyond the eye's limit a star still brightens its pixels by some codes: it fades out over the last 0.8 mag.
+constexpr double kStarMargin_mag = 1.5;
 
 PlannedPass plan_sky(Pass pass, bool lights, bool valid, double now_rad, double held_rad, bool height_stale) {
     if (!lights) return {pass, false, "the source is too low to light the air"};
-    if (!valid) return {pass, true, "no table yet"};
+    if (!valid) return {pass, true, "no table of this air yet"};
     if (std::abs(now_rad - held_rad) > kStaleAngle_rad)
         return {pass, true, "the source has moved by 0.01 deg"};
     if (height_stale) return {pass, true, "the eye has changed height"};
     return {pass, false, "the table is fresh"};
+}
+
+PlannedPass plan_disc(Pass pass, bool enabled, double elevation_rad, double radius_rad, double horizon_rad) {
+    if (!enabled) return {pass, false, "switched off"};
+    if (elevation_rad + 1.1 * radius_rad < horizon_rad) return {pass, false, "below the horizon"};
+    return {pass, true, "above the horizon"};
+}
+
+void put(Plan& plan, const PlannedPass& pass) {
+    plan.passes[static_cast<std::size_t>(pass.pass)] = pass;
 }
 
 }  // namespace
@@ -63,47 +49,57 @@ std::string_view pass_name(Pass pass) noexcept {
     return kNames[static_cast<std::size_t>(pass)];
 }
 
+double faintest_visible_mag(double background_cd_m2) noexcept {
+    const double nanolamberts = std::max(background_cd_m2, 1e-9) / 3.1831e-6;
+    const auto magnitude = [nanolamberts](double log_c, double log_k) {
+        const double root = 1.0 + std::sqrt(std::pow(10.0, log_k) * nanolamberts);
+        return -16.57 - 2.5 * (log_c + 2.0 * std::log10(root));
+    };
+    // Published as two branches with a step of 0.08 mag at 1500 nL; they cross close by, so the larger is
+    // both smooth enough and right on either side.
+    return std::max(magnitude(-9.80, -1.90), magnitude(-8.35, -5.90));
+}
+
 Plan make_plan(const Scene& scene, const Held& held) noexcept {
     Plan plan;
-    const auto put = [&plan](const PlannedPass& pass) {
-        plan.passes[static_cast<std::size_t>(pass.pass)] = pass;
-    };
-    const double sun_rad = elevation_of(scene.sun.direction_enu);
-    const double moon_rad = elevation_of(scene.moon.direction_enu);
-    const double horizon_rad = horizon_of(scene.eye.height_m);
-    const bool air_stale = !held.air_valid || held.air != scene.air;
-    put({Pass::kAirTables, air_stale, air_stale ? "the air is new" : "the air has not changed"});
+    const double horizon_rad = horizon_elevation_rad(scene.eye.height_m);
+    const double sun_rad = horizontal_of(scene.sun.direction_enu).elevation_rad;
+    const double moon_rad = horizontal_of(scene.moon.direction_enu).elevation_rad;
+    const bool air_stale = !held.air_valid || !held.air_fresh;
+    put(plan, {Pass::kAirTables, air_stale, air_stale ? "the air is new" : "the air has not changed"});
 
-    // From high up sources light air beyond the level horizon.
-    plan.sun_lights_air = sun_rad > kSunGone_rad + horizon_rad;
-    plan.moon_lights_air = sun_rad < kMoonMatters_rad && moon_rad > -6.0 * kDegree + horizon_rad;
-    put(plan_sky(Pass::kSunSky, plan.sun_lights_air, held.sun_sky_valid, sun_rad, held.sun_sky_elevation_rad,
+    // Sunlit air ends at -21.5 deg (towards the Sun it outshines the night sky's low parts beyond -18),
+    // moonlit air at -10 deg of the Moon and where twilight drowns it. From high up sources light air beyond
+    // the level horizon.
+    plan.sun_share = smooth_step(-21.5 * kDegree, -18.5 * kDegree, sun_rad - horizon_rad);
+    plan.moon_share = smooth_step(-10.0 * kDegree, -6.0 * kDegree, moon_rad - horizon_rad) *
+                      smooth_step(-3.0 * kDegree, -6.0 * kDegree, sun_rad);
+    // The Moon's table is begun before its light counts.
+    const bool moon_lights = moon_rad - horizon_rad > -10.5 * kDegree && sun_rad < -2.0 * kDegree;
+    put(plan,
+        plan_sky(Pass::kSunSky, plan.sun_share > 0.0, held.sun_sky_valid, sun_rad, held.sun_sky_elevation_rad,
                  height_is_stale(scene.eye.height_m, held.sun_sky_height_m)));
-    put(plan_sky(Pass::kMoonSky, plan.moon_lights_air, held.moon_sky_valid, moon_rad,
-                 held.moon_sky_elevation_rad, height_is_stale(scene.eye.height_m, held.moon_sky_height_m)));
-    put({Pass::kDome, true, "smooth light of all directions"});
-
-    plan.star_limit_mag = faintest_visible_mag(held.background_cd_m2) + kStarMargin_mag;
-    if (!scene.stars.enabled || scene.stars.intensity <= 0.0) {
-        put({Pass::kStars, false, "switched off"});
-    } else if (plan.star_limit_mag < kBrightestStar_mag) {
-        put({Pass::kStars, false, "the sky outshines every star"});
-    } else {
-        put({Pass::kStars, true, "some stars outshine the sky"});
-    }
-
-    const auto disc = [&](Pass pass, bool enabled, double elevation_rad, double radius_rad) {
-        if (!enabled) {
-            put({pass, false, "switched off"});
-        } else if (elevation_rad + 1.1 * radius_rad < horizon_rad) {
-            put({pass, false, "below the horizon"});
-        } else {
-            put({pass, true, "above the horizon"});
-        }
-    };
-    disc(Pass::kSunDisc, scene.sun.enabled, sun_rad, scene.sun.angular_radius_rad);
-    disc(Pass::kMoonDisc, scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad);
+    put(plan,
+        plan_sky(Pass::kMoonSky, moon_lights, held.moon_sky_valid, moon_rad, held.moon_sky_elevation_rad,
+                 height_is_stale(scene.eye.height_m, held.moon_sky_height_m)));
+    put(plan, {Pass::kDome, true, "smooth light of all directions"});
+    put(plan, {Pass::kStars, false, "not decided yet"});
+    put(plan,
+        plan_disc(Pass::kSunDisc, scene.sun.enabled, sun_rad, scene.sun.angular_radius_rad, horizon_rad));
+    put(plan,
+        plan_disc(Pass::kMoonDisc, scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad, horizon_rad));
     return plan;
+}
+
+void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2) noexcept {
+    plan.star_limit_mag = faintest_visible_mag(background_cd_m2) + kStarMargin_mag;
+    if (!scene.stars.enabled || scene.stars.intensity <= 0.0) {
+        put(plan, {Pass::kStars, false, "switched off"});
+    } else if (plan.star_limit_mag < kBrightestStar_mag) {
+        put(plan, {Pass::kStars, false, "the sky outshines every star"});
+    } else {
+        put(plan, {Pass::kStars, true, "some stars outshine the sky"});
+    }
 }
 
 }  // namespace skyig::render

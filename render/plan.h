@@ -1,4 +1,4 @@
-// Which passes one frame needs, and why. Pure: no GL, no clock, no allocation; printed by `skyig plan`.
+// Which passes one frame needs, and why. Pure: no GL, no clock, no allocation.
 #pragma once
 
 #include <array>
@@ -31,27 +31,26 @@ struct PlannedPass {
 };
 
 /// What the renderer already holds, so that the plan can say what is stale. A sky is valid if it was made of
-/// the air that is held.
+/// the air that is held; elevation and height are those it was asked for.
 struct Held {
     bool air_valid = false;
-    Air air;
+    bool air_fresh = false;
+    bool sun_sky_valid = false;
     double sun_sky_elevation_rad = 0.0;
     double sun_sky_height_m = 0.0;
-    bool sun_sky_valid = false;
+    bool moon_sky_valid = false;
     double moon_sky_elevation_rad = 0.0;
     double moon_sky_height_m = 0.0;
-    bool moon_sky_valid = false;
-    /// Luminance of the sky that stars compete with, cd/m2 (of the last frame).
-    double background_cd_m2 = 0.0;
 };
 
 struct Plan {
     std::array<PlannedPass, kPassCount> passes{};
-    /// Stars fainter than this (V magnitude) cannot be seen and are left out.
+    /// How much of the light that Sun and Moon scatter in the air is drawn, 0..1: it fades out where it no
+    /// longer counts.
+    double sun_share = 0.0;
+    double moon_share = 0.0;
+    /// Stars of this V magnitude are gone, those 0.8 mag brighter are drawn in full.
     double star_limit_mag = 0.0;
-    /// True when the frame's light may be drawn from tables: light of the Sun, of the Moon.
-    bool sun_lights_air = false;
-    bool moon_lights_air = false;
 
     [[nodiscard]] const PlannedPass& operator[](Pass pass) const noexcept {
         return passes[static_cast<std::size_t>(pass)];
@@ -60,7 +59,14 @@ struct Plan {
 };
 
 /// \param scene  the frame; \param held  what is in the tables. Deterministic: equal input gives an equal
-/// plan.
+/// plan. Stars are left for plan_stars(), which needs the light that this plan leads to.
 [[nodiscard]] Plan make_plan(const Scene& scene, const Held& held) noexcept;
+
+/// Decides on the stars. \param background_cd_m2  the darkest sky that they stand before
+void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2) noexcept;
+
+/// Faintest star that a practised eye sees before a background, V magnitude (Schaefer 1990, after Knoll et
+/// al. 1946).
+[[nodiscard]] double faintest_visible_mag(double background_cd_m2) noexcept;
 
 }  // namespace skyig::render

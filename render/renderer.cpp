@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "render/discs.h"
@@ -27,6 +29,13 @@ constexpr double kStarSigma_px = 0.7;
 
 constexpr double kZenith_rad = 1.5707;
 
+// Softening of edges where no channel says how fine its pixels are.
+constexpr double kCoarsestEdge_rad = 0.02;
+
+bool has_area(const Frustum& f) {
+    return f.right_rad > f.left_rad && f.top_rad > f.bottom_rad;
+}
+
 // A shift of adaptation smaller than this moves no pixel by half a display code.
 constexpr double kAdaptationStep = 0.002;
 
@@ -40,23 +49,6 @@ glm::dmat4 clip_from_view(const Frustum& frustum, double guard_x, double guard_y
     const double height = (p.top - p.bottom) * guard_y;
     return {glm::dvec4{2.0 / width, 0.0, 0.0, 0.0}, glm::dvec4{0.0, 2.0 / height, 0.0, 0.0},
             glm::dvec4{(p.right + p.left) / width, (p.top + p.bottom) / height, 0.0, -1.0}, glm::dvec4{0.0}};
-}
-
-// The source that lights most of the sky decides where the dome is finest.
-double primary_azimuth(const SkyLight& light) {
-    if (light.sun.view != nullptr &&
-        (light.moon.view == nullptr || light.sun.view->source_elevation_rad() > -0.2)) {
-        return light.sun.azimuth_rad;
-    }
-    return light.moon.view != nullptr ? light.moon.azimuth_rad : 0.0;
-}
-
-double primary_elevation(const SkyLight& light) {
-    if (light.sun.view != nullptr &&
-        (light.moon.view == nullptr || light.sun.view->source_elevation_rad() > -0.2)) {
-        return light.sun.view->source_elevation_rad();
-    }
-    return light.moon.view != nullptr ? light.moon.view->source_elevation_rad() : 0.0;
 }
 
 class StarPass {
@@ -154,47 +146,48 @@ struct Renderer::Impl {
         glm::vec3 sun_scale{-1.0F};
         glm::vec3 moon_scale{-1.0F};
         double moon_from_sun_rad = 0.0;
-        DomeLayout layout;
     } shaded;
-    double zenith_cd_m2 = 0.0;
 };
 
 void Renderer::Impl::adapt() {
     std::array<double, eye::kProbeCount> luminance{};
+    double darkest_sky = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
         const eye::ProbeDirection& probe = eye::probe_directions()[i];
-        luminance[i] = static_cast<double>(shaders32::luminance_709(
-            light.rgb_cd_m2(std::min(light.horizon_elevation_rad + probe.above_horizon_rad, kZenith_rad),
-                            probe.azimuth_rad, Side::kByElevation)));
+        const double elevation = std::min(light.horizon_elevation_rad + probe.above_horizon_rad, kZenith_rad);
+        luminance[i] = static_cast<double>(
+            shaders32::luminance_709(light.rgb_cd_m2(elevation, probe.azimuth_rad, Side::kByElevation)));
+        if (probe.above_horizon_rad > 0.0) darkest_sky = std::min(darkest_sky, luminance[i]);
     }
     report.adaptation_cd_m2 =
-        adaptation.update(eye::adaptation_target_cd_m2(luminance), scene.time_s, display);
+        adaptation.update(eye::adaptation_target_cd_m2(luminance), scene.time_s, tables.jumped(), display);
     tone = eye::tone_parameters(display, report.adaptation_cd_m2);
-    zenith_cd_m2 =
-        static_cast<double>(shaders32::luminance_709(light.rgb_cd_m2(kZenith_rad, 0.0, Side::kSky)));
+    plan_stars(report.plan, scene, darkest_sky);
+}
+
+// Whether a colour's factor has changed by what could move a display code.
+bool scale_moved(const glm::vec3& a, const glm::vec3& b) {
+    return glm::any(glm::greaterThan(glm::abs(a - b), kLightStep * glm::max(a, b)));
 }
 
 void Renderer::Impl::refresh_dome() {
-    const DomeLayout layout{light.horizon_elevation_rad, primary_elevation(light), pixel_rad};
-    const double moon_from_sun =
-        light.moon.view != nullptr ? light.moon.azimuth_rad - light.sun.azimuth_rad : 0.0;
-    const auto moved = [](const glm::vec3& a, const glm::vec3& b) {
-        return glm::any(glm::greaterThan(glm::abs(a - b), kLightStep * glm::max(a, b)));
-    };
-    const bool stale = shaded.revision != tables.revision() || shaded.layout != layout ||
+    const DomeLayout wanted = dome_layout(light, pixel_rad);
+    const bool lay = shaded.revision == 0 || !still_serves(dome.layout(), wanted);
+    const bool stale = lay || shaded.revision != tables.revision() ||
                        std::abs(report.adaptation_cd_m2 - shaded.adaptation_cd_m2) >
                            kAdaptationStep * shaded.adaptation_cd_m2 ||
-                       moved(light.sun.scale_xyz, shaded.sun_scale) ||
-                       moved(light.moon.scale_xyz, shaded.moon_scale) ||
-                       std::abs(moon_from_sun - shaded.moon_from_sun_rad) > static_cast<double>(kLightStep);
+                       scale_moved(light.sun.scale_xyz, shaded.sun_scale) ||
+                       scale_moved(light.moon.scale_xyz, shaded.moon_scale) ||
+                       std::abs(std::remainder(wanted.second_azimuth_rad - shaded.moon_from_sun_rad,
+                                               2.0 * std::numbers::pi)) > static_cast<double>(kLightStep);
     if (!stale) return;
-    if (shaded.layout != layout || shaded.revision == 0) dome.lay_out(layout);
-    dome.shade(light, primary_azimuth(light), tone);
+    if (lay) dome.lay_out(wanted);
+    dome.shade(light, tone);
     const auto vertices = dome.vertices();
     dome_mesh.update(
         {reinterpret_cast<const float*>(vertices.data()), vertices.size_bytes() / sizeof(float)});
-    shaded = {tables.revision(),    report.adaptation_cd_m2, light.sun.scale_xyz,
-              light.moon.scale_xyz, moon_from_sun,           layout};
+    shaded = {tables.revision(), report.adaptation_cd_m2, light.sun.scale_xyz, light.moon.scale_xyz,
+              wanted.second_azimuth_rad};
 }
 
 Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display) {
@@ -210,14 +203,13 @@ Renderer::~Renderer() = default;
 const FrameReport& Renderer::prepare(const Scene& scene) {
     Impl& m = *impl_;
     m.scene = scene;
-    Held held = m.tables.held();
-    held.background_cd_m2 = m.zenith_cd_m2;
-    m.report.plan = make_plan(scene, held);
+    m.report.plan = make_plan(scene, m.tables.held(scene));
     m.tables.update(scene, m.report.plan);
     m.light = m.tables.light(scene, m.report.plan);
 
-    m.pixel_rad = 1.0;
+    m.pixel_rad = kCoarsestEdge_rad;
     for (std::size_t i = 0; i < m.channels.size() && i < scene.view_count; ++i) {
+        if (!has_area(scene.views[i].frustum)) continue;
         m.pixel_rad = std::min(m.pixel_rad, pixel_angle_rad(m.channels[i], scene.views[i].frustum));
     }
     m.adapt();
@@ -244,6 +236,7 @@ void Renderer::draw(std::size_t channel) {
     Impl& m = *impl_;
     if (channel >= m.channels.size() || channel >= m.scene.view_count) return;
     const ChannelView& view = m.scene.views[channel];
+    if (!has_area(view.frustum)) return;
     const Plan& plan = m.report.plan;
     const glm::dmat4 clip_from_enu = clip_from_view(view.frustum, 1.0, 1.0) * glm::dmat4{view.view_from_enu};
 
@@ -251,7 +244,7 @@ void Renderer::draw(std::size_t channel) {
     gl::set_blend(gl::Blend::kReplace);
     m.dome_program.use();
     m.dome_program.set(m.dome_clip,
-                       glm::mat4{clip_from_enu * glm::dmat4{Dome::enu_from_mesh(primary_azimuth(m.light))}});
+                       glm::mat4{clip_from_enu * glm::dmat4{Dome::enu_from_mesh(dome_azimuth_rad(m.light))}});
     m.dome_mesh.draw_triangles();
 
     if (plan.needs(Pass::kStars)) {

@@ -37,8 +37,9 @@ class Renderer {
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// All work that the channels share. `scene.view_count` must equal the number of channels.
-    /// Never throws; allocates nothing in steady state.
+    /// All work that the channels share. Channels beyond `scene.view_count` and those whose frustum has no
+    /// area keep their last picture (black at first). Allocates nothing in steady state. The first call
+    /// builds all tables and may throw std::bad_alloc; later ones do not throw.
     const FrameReport& prepare(const Scene& scene);
 
     /// Draws one channel of the prepared frame and returns when the pixels are finished.

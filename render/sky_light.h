@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 
+#include "render/geometry.h"
 #include "render/sky/sky_view.h"
 
 namespace skyig::render {
@@ -11,7 +12,7 @@ namespace skyig::render {
 /// A light source and the table of the air and ground it lights.
 struct LitAir {
     const sky::SkyView* view = nullptr;  ///< null: this source lights nothing
-    double azimuth_rad = 0.0;            ///< of the source, clockwise from north
+    Horizontal source;                   ///< where it stands in this frame; the table may lag by 0.01 deg
     /// Factors on X, Y, Z of the table (distance, obscuration, the Moon's share and tint).
     glm::vec3 scale_xyz{0.0F};
 };
@@ -22,19 +23,13 @@ enum class Side { kByElevation, kSky, kGround };
 struct SkyLight {
     LitAir sun;
     LitAir moon;
+    /// Of this frame's eye, exact; a table made a little lower or higher is asked at the same angle from its
+    /// own horizon.
     double horizon_elevation_rad = 0.0;
     double eye_height_m = 0.0;
 
     /// Linear Rec.709, cd/m2 (components may be negative outside the gamut; luminance is >= 0).
     [[nodiscard]] glm::vec3 rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept;
 };
-
-/// Elevation and azimuth (clockwise from north) of a unit vector east-north-up; both finite at the poles.
-struct Horizontal {
-    double elevation_rad = 0.0;
-    double azimuth_rad = 0.0;
-};
-[[nodiscard]] Horizontal horizontal_of(const glm::dvec3& direction_enu) noexcept;
-[[nodiscard]] glm::dvec3 direction_of(const Horizontal& horizontal) noexcept;
 
 }  // namespace skyig::render

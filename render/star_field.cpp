@@ -13,6 +13,7 @@ namespace skyig::render {
 namespace {
 
 constexpr std::size_t kTransmittanceSteps = 128;
+constexpr double kFade_mag = 0.8;
 
 // Steps crowd at the horizon, where the air mass runs away.
 double step_of_elevation(double elevation_rad, double horizon_rad) {
@@ -68,7 +69,9 @@ void StarField::update(const Scene& scene, const sky::AirTables& air, const SkyL
 
     count_ = 0;
     for (const Source& source : sources_) {
-        if (static_cast<double>(source.magnitude) > limit_mag) break;
+        const auto shown = static_cast<float>(
+            smooth_step(limit_mag, limit_mag - kFade_mag, static_cast<double>(source.magnitude)));
+        if (shown <= 0.0F) break;
         const glm::vec3 direction = glm::normalize(
             enu_from_gcrs * (source.direction_gcrs + source.motion_rad_per_yr * years + aberration));
         if (direction.z < horizon_sine) continue;
@@ -78,7 +81,7 @@ void StarField::update(const Scene& scene, const sky::AirTables& air, const SkyL
         const glm::vec3 behind =
             light.rgb_cd_m2(horizontal.elevation_rad, horizontal.azimuth_rad, Side::kSky);
         stars_[count_++] = {direction,
-                            source.illuminance_lux * intensity *
+                            source.illuminance_lux * (intensity * shown) *
                                 transmittance(horizontal.elevation_rad, light.horizon_elevation_rad),
                             shaders32::display_linear(behind, tone32)};
     }

@@ -25,8 +25,9 @@ class StarField {
     /// Allocates for the whole catalogue.
     StarField();
 
-    /// \param limit_mag  V magnitude outside the air; fainter stars are left out
-    /// Annual aberration: direction + velocity / c, normalised (second order neglected: 0.001 arcsec).
+    /// \param limit_mag  V magnitude outside the air; fainter stars are left out, brighter ones fade in over
+    /// 0.8 mag Annual aberration: direction + velocity / c, normalised (second order neglected: 0.001
+    /// arcsec).
     void update(const Scene& scene, const sky::AirTables& air, const SkyLight& light,
                 const shaders64::ToneParameters& tone, double limit_mag);
 

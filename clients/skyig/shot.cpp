@@ -125,8 +125,6 @@ Shot take_shot(const ShotOptions& options) {
         log.warning("{} is beyond the ephemeris: the nearest year it knows is drawn", options.utc);
     painter.prepare(scene);
     const std::int64_t tables_ns = clock.monotonic_ns();
-    // Which stars show depends on the light of the frame before: one still takes two.
-    painter.prepare(scene);
     Shot shot;
     for (std::size_t channel = 0; channel < config.channels.size(); ++channel)
         painter.draw(channel);

@@ -35,7 +35,7 @@ double adaptation_target_cd_m2(const std::array<double, kProbeCount>& luminance_
     double sum_of_logs = 0.0;
     double sum = 0.0;
     for (const double value : luminance_cd_m2) {
-        const double luminance = std::max(value, 0.0);
+        const double luminance = std::isfinite(value) ? std::max(value, 0.0) : 0.0;
         sum_of_logs += std::log10(luminance + kFloor_cd_m2);
         sum += luminance;
     }
@@ -43,10 +43,12 @@ double adaptation_target_cd_m2(const std::array<double, kProbeCount>& luminance_
     return std::max(std::pow(10.0, sum_of_logs / kCount), sum / kCount / 3.0);
 }
 
-double Adaptation::update(double target_cd_m2, double time_s, const DisplaySettings& display) noexcept {
+double Adaptation::update(double target_cd_m2, double time_s, bool jump,
+                          const DisplaySettings& display) noexcept {
+    if (!std::isfinite(target_cd_m2) || target_cd_m2 <= 0.0) return luminance_cd_m2_;
     const double step_s = time_s - time_s_;
     time_s_ = time_s;
-    if (!started_ || !(step_s >= 0.0) || step_s > kJump_s) {
+    if (!started_ || jump || !(step_s >= 0.0) || step_s > kJump_s) {
         started_ = true;
         luminance_cd_m2_ = target_cd_m2;
         return luminance_cd_m2_;

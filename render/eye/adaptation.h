@@ -21,8 +21,9 @@ inline constexpr std::size_t kProbeCount = 84;
 /// are left out by the caller.
 [[nodiscard]] const std::array<ProbeDirection, kProbeCount>& probe_directions() noexcept;
 
-/// Log-average of luminances, cd/m2, times 10^0.84 (Tumblin and Rushmeier 1993: eyes adapt towards the
-/// brighter parts). Never below 1e-5 * 10^0.84.
+/// Log-average of luminances, cd/m2, but at least a third of their mean: where most of the view is black
+/// (orbit, late twilight) the eye follows the part that is not. Never below 1e-5; what is not finite counts
+/// as dark.
 [[nodiscard]] double adaptation_target_cd_m2(const std::array<double, kProbeCount>& luminance_cd_m2) noexcept;
 
 /// First-order approach of the logarithm, by scene time.
@@ -31,7 +32,7 @@ class Adaptation {
     /// \param target_cd_m2  > 0; \param time_s  scene time. The first call, a step backwards, and a step of
     /// more than kJump_s set the state to the target at once. \return the luminance that this frame is
     /// adapted to
-    double update(double target_cd_m2, double time_s, const DisplaySettings& display) noexcept;
+    double update(double target_cd_m2, double time_s, bool jump, const DisplaySettings& display) noexcept;
 
     [[nodiscard]] double luminance_cd_m2() const noexcept { return luminance_cd_m2_; }
 

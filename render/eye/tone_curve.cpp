@@ -65,9 +65,10 @@ ToneCurve tone_curve(const DisplaySettings& display, double adaptation_cd_m2) no
 
 double highlight_room(double adaptation_cd_m2) noexcept {
     // Chosen by looking at dawn, noon, dusk and 12 km: less burns the horizon out, more dims the zenith.
-    constexpr double kDayRoom = 0.55;
+    // Spread over five decades, so that brighter fields are still shown brighter.
+    constexpr double kDayRoom = 0.45;
     const double t =
-        std::clamp((std::log10(std::max(adaptation_cd_m2, kDarkest_cd_m2)) + 3.0) / 3.0, 0.0, 1.0);
+        std::clamp((std::log10(std::max(adaptation_cd_m2, kDarkest_cd_m2)) + 3.0) / 5.0, 0.0, 1.0);
     return kDayRoom * t * t * (3.0 - 2.0 * t);
 }
 

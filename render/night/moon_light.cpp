@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/colour.h"
 #include "render/shaders/shared.h"
 
 namespace skyig::render::night {
@@ -41,6 +42,11 @@ glm::dvec3 moon_tint_rgb() noexcept {
     // 0.25 mag of B-V between 440 and 550 nm, carried on to 612 nm; luminance stays.
     const glm::dvec3 raw{1.12, 1.0, 0.83};
     return raw / (0.2126 * raw.x + 0.7152 * raw.y + 0.0722 * raw.z);
+}
+
+glm::dvec3 moon_tint_xyz() noexcept {
+    const glm::dmat3 xyz_from_rec709 = glm::inverse(kRec709FromXyz);
+    return (xyz_from_rec709 * moon_tint_rgb()) / (xyz_from_rec709 * glm::dvec3{1.0});
 }
 
 }  // namespace skyig::render::night

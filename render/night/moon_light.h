@@ -22,4 +22,7 @@ namespace skyig::render::night {
 /// 0.65.
 [[nodiscard]] glm::dvec3 moon_tint_rgb() noexcept;
 
+/// The same as factors on X, Y and Z of sunlight.
+[[nodiscard]] glm::dvec3 moon_tint_xyz() noexcept;
+
 }  // namespace skyig::render::night

@@ -11,9 +11,9 @@ inline constexpr double kAirglowZenith_cd_m2 = 1.21e-4;
 /// Sky mean of integrated and diffuse starlight with the zodiacal light away from the ecliptic, cd/m2.
 inline constexpr double kBeyondAir_cd_m2 = 0.95e-4;
 
-/// XYZ, Y in cd/m2. Airglow follows van Rhijn's layer at 90 km and thins out for eyes above it; both terms
-/// pay extinction (0.17 mag per air mass at sea level, falling with 8 km). Ground directions get the light
-/// the ground returns.
+/// XYZ, Y in cd/m2. Airglow follows van Rhijn's layer at 90 km and thins out for eyes above it. Both terms
+/// pay extinction (0.17 mag per air mass at sea level, falling with 8 km), of which the air gives 60 % back
+/// as scattered light of the whole sky; so does the air before the ground.
 [[nodiscard]] glm::vec3 night_floor_xyz(double elevation_rad, double horizon_elevation_rad,
                                         double eye_height_m, bool ground) noexcept;
 

@@ -47,7 +47,7 @@ TEST(Dome, CoversEveryDirectionWhateverTheHorizon) {
     std::normal_distribution<double> normal;
     for (const double dip_deg : {0.0, 0.01, 3.0, 20.0, 81.0}) {
         for (const double source_deg : {90.0, 5.0, -12.0}) {
-            dome.lay_out({-dip_deg * kDegree, source_deg * kDegree, 8e-4});
+            dome.lay_out({-dip_deg * kDegree, 8e-4, source_deg * kDegree, true, 20.0 * kDegree, 2.5, true});
             for (int i = 0; i < 40; ++i) {
                 const glm::dvec3 d =
                     glm::normalize(glm::dvec3{normal(random), normal(random), normal(random)});
@@ -60,22 +60,36 @@ TEST(Dome, CoversEveryDirectionWhateverTheHorizon) {
 
 TEST(Dome, RowsRiseAndTheHorizonLiesBetweenTheEdgeRows) {
     Dome dome;
-    for (const double source_deg : {90.0, 30.0, 0.0, -18.0}) {
-        dome.lay_out({-1.0 * kDegree, source_deg * kDegree, 8e-4});
-        const auto v = dome.vertices();
-        double last = -2.0;
-        for (std::size_t row = 0; row < Dome::kSkyRows + Dome::kGroundRows; ++row) {
-            const double height = static_cast<double>(v[row * (Dome::kColumns + 1)].direction.z);
-            EXPECT_GT(height, last) << row << " at " << source_deg;
-            last = height;
+    for (const double edge_rad : {1e-5, 8e-4, 4e-3, 2e-2}) {
+        for (const double source_deg : {90.0, 30.0, 0.0, -18.0}) {
+            dome.lay_out({-1.0 * kDegree, edge_rad, source_deg * kDegree, true, 0.0, 0.0, false});
+            const auto v = dome.vertices();
+            const auto elevation = [&](int row) {
+                return std::asin(
+                    static_cast<double>(v[static_cast<std::size_t>(row * (Dome::kColumns + 1))].direction.z));
+            };
+            for (int row = 1; row < Dome::kSkyRows + Dome::kGroundRows; ++row)
+                EXPECT_GT(elevation(row), elevation(row - 1))
+                    << row << " at " << source_deg << ", " << edge_rad;
+            const double below = elevation(Dome::kGroundRows - 1);
+            const double above = elevation(Dome::kGroundRows);
+            EXPECT_NEAR(above - below, edge_rad, 2e-6);
+            EXPECT_NEAR(0.5 * (above + below), -1.0 * kDegree, 2e-6);
         }
-        const double below =
-            std::asin(static_cast<double>(v[(Dome::kGroundRows - 1) * (Dome::kColumns + 1)].direction.z));
-        const double above =
-            std::asin(static_cast<double>(v[Dome::kGroundRows * (Dome::kColumns + 1)].direction.z));
-        EXPECT_NEAR(above - below, 8e-4, 2e-6);
-        EXPECT_NEAR(0.5 * (above + below), -1.0 * kDegree, 2e-6);
     }
+}
+
+TEST(Dome, ServesUntilTheHorizonLeavesItsPlaceByATwentiethOfAPixel) {
+    const DomeLayout held{-0.02, 1e-3, 0.3, true, 0.0, 0.0, false};
+    DomeLayout wanted = held;
+    EXPECT_TRUE(still_serves(held, wanted));
+    wanted.horizon_elevation_rad += 4e-5;
+    EXPECT_TRUE(still_serves(held, wanted));
+    wanted.horizon_elevation_rad += 2e-5;
+    EXPECT_FALSE(still_serves(held, wanted));
+    wanted = held;
+    wanted.second_lights = true;
+    EXPECT_FALSE(still_serves(held, wanted));
 }
 
 TEST(Dome, InterpolatedColoursAreWithinACodeOfTheExactOnes) {
@@ -83,17 +97,16 @@ TEST(Dome, InterpolatedColoursAreWithinACodeOfTheExactOnes) {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (const auto& named : tests::four_times()) {
         LightTables tables;
-        const Plan plan = make_plan(named.scene, tables.held());
+        const Plan plan = make_plan(named.scene, tables.held(named.scene));
         tables.update(named.scene, plan);
         const SkyLight light = tables.light(named.scene, plan);
         const double luminance = std::max(
             1e-4, static_cast<double>(shaders32::luminance_709(light.rgb_cd_m2(0.3, 2.0, Side::kSky))));
         const auto tone = eye::tone_parameters({}, 3.0 * luminance);
-        const bool by_sun = light.sun.view != nullptr && light.moon.view == nullptr;
-        const LitAir& source = by_sun ? light.sun : light.moon;
         Dome dome;
-        dome.lay_out({light.horizon_elevation_rad, source.view->source_elevation_rad(), 8e-4});
-        dome.shade(light, source.azimuth_rad, tone);
+        dome.lay_out(dome_layout(light, 8e-4));
+        dome.shade(light, tone);
+        const double turn = dome_azimuth_rad(light);
         std::vector<double> errors;
         for (int i = 0; i < 1500; ++i) {
             // Mostly near the horizon and the source's azimuth, where the sky bends.
@@ -101,9 +114,8 @@ TEST(Dome, InterpolatedColoursAreWithinACodeOfTheExactOnes) {
             const double from_source = (unit(random) < 0.5 ? -1 : 1) * std::pow(unit(random), 2.0) * 3.1;
             glm::dvec3 drawn;
             ASSERT_TRUE(interpolate(dome, direction_of({elevation, from_source}), drawn));
-            const glm::dvec3 exact{
-                shaders32::shown(light.rgb_cd_m2(elevation, source.azimuth_rad + from_source, Side::kSky),
-                                 eye::single_precision(tone))};
+            const glm::dvec3 exact{shaders32::shown(
+                light.rgb_cd_m2(elevation, turn + from_source, Side::kSky), eye::single_precision(tone))};
             const glm::dvec3 d = glm::abs(drawn - exact) * 255.0;
             errors.push_back(std::max({d.x, d.y, d.z}));
         }

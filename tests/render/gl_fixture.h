@@ -51,8 +51,6 @@ class GlTest : public ::testing::Test {
     }
 
     std::vector<Picture> draw(Renderer& renderer, const Scene& scene) {
-        // The second frame knows how bright the sky is and draws its stars accordingly.
-        renderer.prepare(scene);
         const FrameReport& report = renderer.prepare(scene);
         std::vector<Picture> pictures;
         for (std::size_t i = 0; i < renderer.channels().size(); ++i) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "render/shaders/shared.h"
 #include "tests/render/scenes.h"
@@ -19,7 +21,7 @@ double luminance(const SkyLight& light, double elevation_deg, double azimuth_deg
 }
 
 SkyLight step(LightTables& tables, const Scene& scene) {
-    const Plan plan = make_plan(scene, tables.held());
+    const Plan plan = make_plan(scene, tables.held(scene));
     tables.update(scene, plan);
     return tables.light(scene, plan);
 }
@@ -42,7 +44,7 @@ TEST(LightTables, SlowSunIsFollowedByWholeTablesAFewFramesLater) {
     }
     EXPECT_GT(frames, 1);
     EXPECT_LT(frames, 20);
-    EXPECT_NEAR(tables.held().sun_sky_elevation_rad, 40.05 * kDegree, 1e-12);
+    EXPECT_NEAR(tables.held(later).sun_sky_elevation_rad, 40.05 * kDegree, 1e-12);
     // Fresh tables are not built again.
     for (int i = 0; i < 30; ++i)
         step(tables, later);
@@ -67,7 +69,7 @@ TEST(LightTables, NewAirIsTakenOverAfterAFixedNumberOfFrames) {
         Scene s = scene;
         step(tables, s);
         s.air.visibility_m = 8000;
-        for (int i = 0; i < 45; ++i)
+        for (int i = 0; i < 60; ++i)
             seen[static_cast<std::size_t>(run)].push_back(luminance(step(tables, s), 5, 90));
     }
     EXPECT_EQ(seen[0], seen[1]);
@@ -102,6 +104,70 @@ TEST(LightTables, MoonlightNeverPopsInTwilight) {
         }
         last = now;
     }
+}
+
+TEST(LightTables, EyeBelowTheEllipsoidKeepsItsTables) {
+    for (const double height_m : {-3.0, -30.0, -400.0}) {
+        LightTables tables;
+        for (int i = 0; i < 60; ++i)
+            step(tables, make_scene(40, 180, -20, 0, height_m));
+        EXPECT_EQ(tables.revision(), 1U) << height_m;
+    }
+}
+
+TEST(LightTables, TemperatureMakesNoNewAir) {
+    LightTables tables;
+    Scene scene = make_scene(40, 180, -20, 0, 1000);
+    for (int i = 0; i < 100; ++i) {
+        step(tables, scene);
+        scene.air.temperature_c += 0.1;
+        scene.air.humidity_pct += 0.1;
+    }
+    EXPECT_EQ(tables.revision(), 1U);
+}
+
+TEST(LightTables, HorizonFollowsTheEyeExactlyInAClimb) {
+    LightTables tables;
+    for (int i = 0; i < 200; ++i) {
+        const double height_m = 3.0 + 0.33 * i;
+        const SkyLight light = step(tables, make_scene(20, 180, -20, 0, height_m));
+        EXPECT_NEAR(light.horizon_elevation_rad, -std::acos(6371e3 / (6371e3 + height_m)), 1e-9);
+    }
+}
+
+// No direction of the sky changes by more than a little from one frame to the next while Sun or Moon sink.
+void expect_no_pop(double from_deg, double to_deg, bool moon_sinks) {
+    LightTables tables;
+    std::vector<double> last;
+    double worst = 0.0;
+    for (double at = from_deg; at > to_deg; at -= 0.0028) {
+        const SkyLight light = moon_sinks ? step(tables, make_scene(-40, 90, at, 270, 0))
+                                          : step(tables, make_scene(at, 270, 30, 90, 0));
+        std::vector<double> now;
+        for (const double elevation : {-10.0, -1.0, 0.3, 1.0, 2.0, 5.0, 20.0, 60.0}) {
+            for (const double azimuth : {0.0, 180.0, 270.0})
+                now.push_back(luminance(light, elevation, azimuth));
+        }
+        for (std::size_t i = 0; i < last.size(); ++i)
+            worst = std::max(worst, std::abs(std::log10(now[i] / last[i])));
+        last = now;
+    }
+    std::printf("largest step of a frame: %.4f decades\n", worst);
+    EXPECT_LT(worst, 0.02);
+}
+
+TEST(LightTables, SunlightEndsWithoutAPop) {
+    expect_no_pop(-17.0, -22.0, false);
+}
+TEST(LightTables, MoonlightEndsWithoutAPop) {
+    expect_no_pop(-5.0, -11.0, true);
+}
+
+TEST(LightTables, DarkSkyIsBrighterThanTheGroundDownToTheHorizon) {
+    LightTables tables;
+    const SkyLight light = step(tables, make_scene(-50, 0, -50, 0, 10));
+    for (double elevation = 0.05; elevation < 90.0; elevation += 0.5)
+        EXPECT_GT(luminance(light, elevation, 0), luminance(light, -10.0, 0)) << elevation;
 }
 
 TEST(LightTables, EclipsedSunDimsItsSky) {

@@ -4,6 +4,10 @@ uniform float u_pixel_rad;
 uniform float u_horizon_sin;
 uniform float u_horizon_cos;
 
+uniform vec3 u_background_cd_m2; // of the sky at the disc's centre,
+uniform vec3 u_background_right; // and what it gains over one radius
+uniform vec3 u_background_up;
+
 in vec2 v_offset;
 in float v_height;
 
@@ -12,4 +16,9 @@ float disc_coverage() {
     float elevation_sin = v_height * inversesqrt(1.0 + dot(v_offset, v_offset));
     float above = (elevation_sin - u_horizon_sin) / (max(u_horizon_cos, 1e-3) * u_pixel_rad);
     return disc * clamp(above + 0.5, 0.0, 1.0);
+}
+
+vec3 sky_behind() {
+    vec2 at = v_offset / u_radius;
+    return max(u_background_cd_m2 + u_background_right * at.x + u_background_up * at.y, vec3(0.0));
 }

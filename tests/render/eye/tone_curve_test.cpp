@@ -35,14 +35,15 @@ TEST(ToneCurve, HybridMatchesThePublishedFormulasAtEveryRow) {
 }
 
 TEST(ToneCurve, UniformFieldsKeepTheirOrderFromNightToNoon) {
-    const DisplaySettings display = display_of(350.0);
-    double last = 0.0;
-    for (double log_l = -6.0; log_l <= 5.0; log_l += 0.01) {
-        const double l = std::pow(10.0, log_l);
-        const ToneCurve curve = tone_curve(display, l);
-        const double shown = std::pow(10.0, curve.p + curve.q * log_l);
-        EXPECT_GT(shown, last) << "at " << l << " cd/m2";
-        last = shown;
+    for (const double white : {100.0, 350.0}) {
+        double last = 0.0;
+        for (double log_l = -6.0; log_l <= 5.0; log_l += 0.01) {
+            const double l = std::pow(10.0, log_l);
+            const auto tone = tone_parameters(display_of(white), l);
+            const double shown = std::exp2(tone.log2_gain + tone.exponent * std::log2(l));
+            EXPECT_GT(shown, last) << "at " << l << " cd/m2 on " << white;
+            last = shown;
+        }
     }
 }
 

@@ -1,0 +1,28 @@
+#include "render/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skyig::render {
+
+double horizon_elevation_rad(double eye_height_m) noexcept {
+    const double h = std::max(eye_height_m, 0.0);
+    return -std::atan2(std::sqrt(h * (2.0 * kEarthRadius_m + h)), kEarthRadius_m);
+}
+
+Horizontal horizontal_of(const glm::dvec3& d) noexcept {
+    const double level = std::hypot(d.x, d.y);
+    return {std::atan2(d.z, level), level > 0.0 ? std::atan2(d.x, d.y) : 0.0};
+}
+
+glm::dvec3 direction_of(const Horizontal& h) noexcept {
+    const double level = std::cos(h.elevation_rad);
+    return {level * std::sin(h.azimuth_rad), level * std::cos(h.azimuth_rad), std::sin(h.elevation_rad)};
+}
+
+double smooth_step(double low, double high, double x) noexcept {
+    const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+}  // namespace skyig::render
