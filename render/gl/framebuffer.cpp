@@ -2,7 +2,7 @@
 
 #include <epoxy/gl.h>
 
-#include <algorithm>
+#include <array>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -10,8 +10,7 @@
 
 namespace skyig::render::gl {
 
-Framebuffer::Framebuffer(int width_px, int height_px, PixelFormat format)
-    : width_px_(width_px), height_px_(height_px) {
+Framebuffer::Framebuffer(int width_px, int height_px) : width_px_(width_px), height_px_(height_px) {
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (width_px < 1 || height_px < 1 || width_px > limit || height_px > limit) {
@@ -20,14 +19,16 @@ Framebuffer::Framebuffer(int width_px, int height_px, PixelFormat format)
                                  std::to_string(limit));
     }
     glCreateTextures(GL_TEXTURE_2D, 1, &texture_);
-    glTextureStorage2D(texture_, 1, format == PixelFormat::kRgba8 ? GL_RGBA8 : GL_RGBA32F, width_px,
-                       height_px);
+    glTextureStorage2D(texture_, 1, GL_RGBA8, width_px, height_px);
     glCreateFramebuffers(1, &framebuffer_);
     glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, texture_, 0);
     if (glCheckNamedFramebufferStatus(framebuffer_, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
         throw std::runtime_error("the driver refuses a framebuffer of " + std::to_string(width_px) + "x" +
                                  std::to_string(height_px) + " pixels");
     }
+    // A new texture holds whatever was in its memory, and a channel may be read before it is drawn.
+    constexpr std::array<GLfloat, 4> kBlack{0.0F, 0.0F, 0.0F, 1.0F};
+    glClearNamedFramebufferfv(framebuffer_, GL_COLOR, 0, kBlack.data());
     row_.resize(static_cast<std::size_t>(width_px) * 4);
 }
 
@@ -68,13 +69,6 @@ void Framebuffer::read_rgba8(std::span<std::byte> top_down) {
         std::memcpy(&top_down[low * stride], &top_down[high * stride], stride);
         std::memcpy(&top_down[high * stride], row_.data(), stride);
     }
-}
-
-void Framebuffer::read_rgba32f(std::span<float> bottom_up) const {
-    if (bottom_up.size() < static_cast<std::size_t>(width_px_) * static_cast<std::size_t>(height_px_) * 4)
-        return;
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
-    glReadPixels(0, 0, width_px_, height_px_, GL_RGBA, GL_FLOAT, bottom_up.data());
 }
 
 }  // namespace skyig::render::gl

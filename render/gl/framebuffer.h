@@ -7,12 +7,11 @@
 
 namespace skyig::render::gl {
 
-enum class PixelFormat { kRgba8, kRgba32f };
-
 class Framebuffer {
   public:
+    /// Black and opaque until something is drawn.
     /// \throws std::runtime_error if the driver refuses the size
-    Framebuffer(int width_px, int height_px, PixelFormat format = PixelFormat::kRgba8);
+    Framebuffer(int width_px, int height_px);
     ~Framebuffer();
     Framebuffer(Framebuffer&& other) noexcept;
     Framebuffer& operator=(Framebuffer&& other) noexcept;
@@ -24,8 +23,6 @@ class Framebuffer {
 
     /// Width * height * 4 bytes, top row first. Waits for the pixels.
     void read_rgba8(std::span<std::byte> top_down);
-    /// Width * height * 4 floats, bottom row first (tests of values beyond 8 bits). Waits for the pixels.
-    void read_rgba32f(std::span<float> bottom_up) const;
 
     [[nodiscard]] int width_px() const noexcept { return width_px_; }
     [[nodiscard]] int height_px() const noexcept { return height_px_; }

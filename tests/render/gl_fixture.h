@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "render/gl/headless_context.h"
@@ -33,6 +37,22 @@ struct Picture {
 
 inline int difference(const Rgb& a, const Rgb& b) {
     return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+/// Where a direction in front of the view lies in its picture, pixels from the upper left corner.
+inline glm::dvec2 picture_point(const Channel& channel, const ChannelView& view,
+                                const glm::dvec3& direction_enu) {
+    const glm::dvec3 d = view.view_from_enu * direction_enu;
+    const ImagePlane p = image_plane(view.frustum);
+    return {(d.x / -d.z - p.left) / (p.right - p.left) * channel.width_px,
+            (p.top - d.y / -d.z) / (p.top - p.bottom) * channel.height_px};
+}
+
+/// The shortest rotation that takes one unit vector to another, not opposite one.
+inline glm::dmat3 rotation_between(const glm::dvec3& from, const glm::dvec3& to) {
+    const glm::dvec3 axis = glm::cross(from, to);
+    const glm::dmat3 cross{0.0, axis.z, -axis.y, -axis.z, 0.0, axis.x, axis.y, -axis.x, 0.0};
+    return glm::dmat3{1.0} + cross + cross * cross * (1.0 / (1.0 + glm::dot(from, to)));
 }
 
 class GlTest : public ::testing::Test {

@@ -109,18 +109,53 @@ TEST_F(Pixel, EqualScenesGiveEqualPictures) {
     }
 }
 
-TEST_F(Pixel, HardScenesDrawWithoutGlErrors) {
+int brightest_green(const std::vector<Picture>& pictures) {
+    int brightest = 0;
+    for (const Picture& picture : pictures) {
+        for (int y = 0; y < picture.height_px; ++y)
+            for (int x = 0; x < picture.width_px; ++x)
+                brightest = std::max(brightest, picture.at(x, y).g);
+    }
+    return brightest;
+}
+
+TEST_F(Pixel, HardScenesDrawWithoutGlErrorsAndTheSameAgain) {
     const std::vector<Channel> channels{{"narrow", 64, 64}, {"wide", 64, 64}, {"off", 64, 64}};
+    Renderer renderer(channels, {});
+    double time_s = 0.0;
     for (const double height : {-400.0, 0.0, 20e3, 100e3, 400e3, 36e6}) {
         for (const double sun : {90.0, 0.0, -0.1, -6.0, -18.0, -90.0}) {
             Scene scene = make_scene(sun, 10.0, -sun, 190.0, height);
+            // A jump of the clock: nothing of the scene before is left in the adaptation.
+            scene.time_s = time_s += 100.0;
             add_view(scene, symmetric_frustum(0.5, 64, 64), view_from_enu(10.0, 89.0, 0.0));
             add_view(scene, symmetric_frustum(85.0, 64, 64), view_from_enu(10.0, -90.0, 0.0));
             add_view(scene, {50 * kDegree, 80 * kDegree, -70 * kDegree, -5 * kDegree},
                      view_from_enu(10.0, 0.0, 170.0));
-            draw(channels, scene, {});
+            const auto first = draw(renderer, scene);
+            const auto second = draw(renderer, scene);
+            for (std::size_t i = 0; i < channels.size(); ++i)
+                EXPECT_EQ(first[i].rgba, second[i].rgba) << channels[i].name << " " << height << " " << sun;
+            // From the ground to orbit some channel sees sunlit sky or ground at noon.
+            if (sun == 90.0 && height <= 400e3) {
+                const int brightest = brightest_green(first);
+                std::printf("noon from %6.0f m: brightest code %d\n", height, brightest);
+                EXPECT_GT(brightest, 40) << height;
+            }
         }
     }
+}
+
+TEST_F(Pixel, ChannelThatWasNeverDrawnIsBlack) {
+    Renderer renderer({{"drawn", 64, 64}, {"waiting", 128, 64}}, {});
+    Scene scene = make_scene(48.0, 185.0, -30.0, 0.0, 1500.0);
+    add_view(scene, symmetric_frustum(30.0, 64, 64), view_from_enu(0.0, 30.0, 0.0));
+    const auto pictures = draw(renderer, scene);
+    EXPECT_GT(brightest_green({pictures[0]}), 40);
+    std::vector<std::byte> black(128 * 64 * 4);
+    for (std::size_t i = 3; i < black.size(); i += 4)
+        black[i] = std::byte{255};
+    EXPECT_EQ(pictures[1].rgba, black);
 }
 
 TEST_F(Pixel, TooManyOrNoChannelsAreRefused) {
