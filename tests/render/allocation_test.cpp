@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "render/light_tables.h"
 #include "tests/render/gl_fixture.h"
 
 namespace {
@@ -45,36 +46,72 @@ using namespace tests;
 
 class Allocation : public GlTest {};
 
-TEST_F(Allocation, SteadyFramesAllocateNothing) {
+// A world that goes on: the Sun climbs, the aircraft too, so that tables are rebuilt all the time.
+class Flight {
+  public:
+    Flight(const std::vector<Channel>& channels, const Scene& scene)
+        : channels_(channels), start_(scene), renderer_(channels, {}), pixels_(64 * 64 * 4) {}
+
+    void set_visibility_m(double visibility_m) { start_.air.visibility_m = visibility_m; }
+
+    /// \return calls of operator new, in all threads
+    long frames(int count) {
+        const long before = news.load();
+        for (int i = 0; i < count; ++i)
+            frame();
+        return news.load() - before;
+    }
+
+    [[nodiscard]] int air_passes() const { return air_passes_; }
+
+  private:
+    void frame() {
+        Scene now = start_;
+        now.time_s = 0.03 * frame_;
+        now.eye.height_m += 0.3 * frame_;
+        const Horizontal sun = horizontal_of(start_.sun.direction_enu);
+        now.sun.direction_enu =
+            direction_of({sun.elevation_rad + 1e-5 * frame_, sun.azimuth_rad + 1e-5 * frame_});
+        air_passes_ += renderer_.prepare(now).plan.needs(Pass::kAirTables) ? 1 : 0;
+        for (std::size_t c = 0; c < channels_.size(); ++c) {
+            renderer_.draw(c);
+            renderer_.read_back(c, pixels_);
+        }
+        ++frame_;
+    }
+
+    std::vector<Channel> channels_;
+    Scene start_;
+    Renderer renderer_;
+    std::vector<std::byte> pixels_;
+    int frame_ = 0;
+    int air_passes_ = 0;
+};
+
+// llvmpipe compiles shader variants late, in C++: what the first frames allocate is the driver's.
+constexpr int kWarmUpFrames = 10;
+
+TEST_F(Allocation, SteadyFramesAllocateNothingAndSoAgainAfterNewAir) {
     const std::vector<Channel> channels{{"a", 64, 64}, {"b", 64, 64}};
     for (auto& [name, scene] : four_times()) {
-        for (const double turn : {-30.0, 30.0}) {
+        for (const double turn : {-30.0, 30.0})
             add_view(scene, symmetric_frustum(30.0, 64, 64), view_from_enu(180.0, 10.0, 0.0, turn));
-        }
-        Renderer renderer(channels, {});
-        std::vector<std::byte> pixels(64 * 64 * 4);
-        const auto frame = [&](int i) {
-            // The world goes on: the Sun climbs, the aircraft too, so that tables are rebuilt all the time.
-            Scene now = scene;
-            now.time_s = 0.03 * i;
-            now.eye.height_m += 0.3 * i;
-            const Horizontal sun = horizontal_of(scene.sun.direction_enu);
-            now.sun.direction_enu = direction_of({sun.elevation_rad + 1e-5 * i, sun.azimuth_rad + 1e-5 * i});
-            renderer.prepare(now);
-            for (std::size_t c = 0; c < channels.size(); ++c) {
-                renderer.draw(c);
-                renderer.read_back(c, pixels);
-            }
-        };
-        for (int i = 0; i < 10; ++i)
-            frame(i);
-        // llvmpipe compiles shader variants late, in C++: what frames of a world at rest allocate is the
-        // driver's.
-        const long before = news.load();
-        for (int i = 10; i < 110; ++i)
-            frame(i);
-        std::printf("%-6s %ld calls of operator new in 100 frames\n", name.c_str(), news.load() - before);
-        EXPECT_EQ(news.load() - before, 0) << name;
+        Flight flight(channels, scene);
+        flight.frames(kWarmUpFrames);
+        const long steady = flight.frames(100);
+
+        flight.set_visibility_m(0.25 * scene.air.visibility_m);
+        const int passes_before = flight.air_passes();
+        const long change = flight.frames(static_cast<int>(LightTables::kAirLatencyFrames) + 1);
+        const int passes_until_taken = flight.air_passes();
+        const long after = flight.frames(100);
+        std::printf("%-6s calls of operator new: %ld in 100 frames, %ld while the air is new, then %ld\n",
+                    name.c_str(), steady, change, after);
+        EXPECT_EQ(steady, 0) << name;
+        EXPECT_GT(change, 0) << "nothing was built for the new air: " << name;
+        EXPECT_GT(passes_until_taken, passes_before) << name;
+        EXPECT_EQ(flight.air_passes(), passes_until_taken) << "the new air was not taken over: " << name;
+        EXPECT_EQ(after, 0) << name;
     }
 }
 
