@@ -89,8 +89,9 @@ struct Link {
     LinkState state = LinkState::kNever;
     /// Meaningless while kNever.
     protocol::transport::Endpoint host;
-    /// World time since its last IG Control.
+    /// World time since the first step without an IG Control of its.
     double silent_s = 0.0;
+    bool heard_since_step = false;
     /// How often a host was lost.
     std::uint64_t losses = 0;
 };

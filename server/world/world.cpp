@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 namespace skyig::server::world {
 
@@ -121,6 +122,7 @@ bool World::claim_link(const cigi::PacketInfo& info) {
     link_.state = LinkState::kAlive;
     link_.host = from_;
     link_.silent_s = 0.0;
+    link_.heard_since_step = true;
     return true;
 }
 
@@ -315,6 +317,8 @@ void World::advance(double step_s) {
 
 void World::supervise_link(double step_s) {
     if (link_.state == LinkState::kNever) return;
+    // A long step after a message is a stall of ours, not a silence of the host.
+    if (std::exchange(link_.heard_since_step, false)) return;
     link_.silent_s += step_s;
     if (link_.state != LinkState::kAlive || link_.silent_s <= config_.host.lost_after_s) return;
     link_.state = LinkState::kLost;

@@ -77,6 +77,15 @@ TEST(WorldLink, SilentHostIsLostOnceThePictureStaysAndTheClockRuns) {
     EXPECT_EQ(bench.world.ownship().position.latitude_deg, 12.0);
 }
 
+TEST(WorldLink, StallOfTheDaemonIsNoSilenceOfTheHost) {
+    HostBench bench;
+    bench.send(kHostA, ownship(10.0));
+    bench.world.advance(5.0);
+    EXPECT_EQ(bench.world.link().state, LinkState::kAlive);
+    bench.world.advance(1.5);
+    EXPECT_EQ(bench.world.link().state, LinkState::kLost);
+}
+
 TEST(WorldLink, FlickeringLinkDoesNotFillTheLog) {
     HostBench bench;
     for (int i = 0; i < 20; ++i) {
