@@ -1,10 +1,15 @@
 // Stars: position, energy and colour of what is drawn, independent of field of view and sub-pixel offset.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "render/eye/tone_curve.h"
+#include "render/geometry.h"
 #include "render/night/star_catalogue.h"
+#include "render/night/star_colour.h"
+#include "render/sky/air_tables.h"
 #include "render/star_field.h"
 #include "tests/render/gl_fixture.h"
 
@@ -25,14 +30,20 @@ Scene night_towards(const glm::dvec3& direction_enu) {
 }
 
 // The brightest star of the fixture's sky that is well above the horizon.
+const night::CatalogueStar& brightest_star() {
+    const Scene scene = make_scene(-40.0, 0.0, -40.0, 90.0, 0.0);
+    const auto stars = night::star_catalogue();
+    const auto brightness = [&](const night::CatalogueStar& star) {
+        const glm::dvec3 d = scene.stars.enu_from_gcrs * glm::dvec3{star.direction_gcrs};
+        return d.z > 0.5 ? -star.vmag : -100.0F;
+    };
+    return *std::max_element(stars.begin(), stars.end(),
+                             [&](const auto& a, const auto& b) { return brightness(a) < brightness(b); });
+}
+
 glm::dvec3 brightest_direction() {
     const Scene scene = make_scene(-40.0, 0.0, -40.0, 90.0, 0.0);
-    const night::CatalogueStar* best = nullptr;
-    for (const auto& star : night::star_catalogue()) {
-        const glm::dvec3 d = scene.stars.enu_from_gcrs * glm::dvec3{star.direction_gcrs};
-        if (d.z > 0.5 && (best == nullptr || star.vmag < best->vmag)) best = &star;
-    }
-    return glm::normalize(scene.stars.enu_from_gcrs * glm::dvec3{best->direction_gcrs});
+    return glm::normalize(scene.stars.enu_from_gcrs * glm::dvec3{brightest_star().direction_gcrs});
 }
 
 TEST_F(StarPass, StarStandsWhereItsDirectionIs) {
@@ -53,45 +64,133 @@ TEST_F(StarPass, StarStandsWhereItsDirectionIs) {
     EXPECT_NEAR(y / sum, 64.0, 0.1);
 }
 
-// Sum over pixels of what a Gaussian of this angle gives, as the shader computes it: closed form in double.
-TEST_F(StarPass, FootprintKeepsItsEnergyAtEverySubPixelOffset) {
-    const Channel channel{"c", 1280, 1024};
-    const Frustum frustum = symmetric_frustum(30.0, channel.width_px, channel.height_px);
-    const double sigma = 0.7 * pixel_angle_rad(channel, frustum);
-    double worst = 0.0;
-    for (const auto& [cx, cy] : {std::pair{640.0, 512.0}, std::pair{640.3, 512.7}, std::pair{20.4, 30.2},
-                                 std::pair{1270.1, 1010.9}, std::pair{900.5, 100.5}}) {
-        const glm::dvec3 star = view_direction(channel, frustum, cx, cy);
-        double sum = 0.0;
-        for (int dy = -8; dy <= 8; ++dy) {
-            for (int dx = -8; dx <= 8; ++dx) {
-                const double px = std::floor(cx) + dx + 0.5;
-                const double py = std::floor(cy) + dy + 0.5;
-                const glm::dvec3 here = view_direction(channel, frustum, px, py);
-                const double chord = glm::length(here - star) / sigma;
-                const ImagePlane p = image_plane(frustum);
-                const double pixel =
-                    (p.right - p.left) / channel.width_px * (p.top - p.bottom) / channel.height_px;
-                sum += std::exp(-0.5 * chord * chord) / (2.0 * std::numbers::pi * sigma * sigma) * pixel *
-                       std::pow(-here.z, 3.0);
-            }
-        }
-        worst = std::max(worst, std::abs(sum - 1.0));
-    }
-    std::printf("largest loss or gain of a footprint: %.2g\n", worst);
-    EXPECT_LT(worst, 3e-3);
+// Light of a display whose white is 1, from its code.
+double decoded(int code) {
+    const double v = code / 255.0;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-TEST_F(StarPass, ZoomMakesStarsStandOutAndLeavesTheSkyAlone) {
+// What one star adds to a picture: display linear times solid angle, summed over its footprint.
+struct Footprint {
+    double energy_sr = 0.0;
+    double peak = 0.0;
+    int brightest_code = 0;
+};
+
+class StarEnergy : public StarPass {
+  protected:
+    // Energy is measured below the shoulder of the tone curve, where the display is linear in the star's
+    // light, as what a picture with stars has more than one without.
+    Footprint footprint(Renderer& renderer, Scene scene, const glm::dvec3& star) {
+        scene.stars.enabled = true;
+        const Picture with = draw(renderer, scene)[0];
+        scene.stars.enabled = false;
+        const Picture without = draw(renderer, scene)[0];
+        const Channel& channel = renderer.channels()[0];
+        const Frustum& frustum = scene.views[0].frustum;
+        const ImagePlane p = image_plane(frustum);
+        const double on_axis_sr =
+            (p.right - p.left) / channel.width_px * (p.top - p.bottom) / channel.height_px;
+        const glm::dvec2 centre = picture_point(channel, scene.views[0], star);
+        const glm::dvec3 middle = scene.views[0].view_from_enu * star;
+        const double reach = kReachOnAxis_px * pixel_angle_rad(channel, frustum);
+        const auto first = [](double at_px) { return std::max(0, static_cast<int>(at_px) - kReach_px); };
+        const auto end = [](double at_px, int size) {
+            return std::min(size, static_cast<int>(at_px) + kReach_px + 1);
+        };
+        Footprint result;
+        for (int y = first(centre.y); y < end(centre.y, channel.height_px); ++y) {
+            for (int x = first(centre.x); x < end(centre.x, channel.width_px); ++x) {
+                const glm::dvec3 here =
+                    view_direction(channel, frustum, x + 0.5, channel.height_px - y - 0.5);
+                if (glm::length(here - middle) > reach) continue;
+                const double added = decoded(with.at(x, y).g) - decoded(without.at(x, y).g);
+                result.energy_sr += added * on_axis_sr * std::pow(-here.z, 3.0);
+                result.peak = std::max(result.peak, added);
+                result.brightest_code =
+                    std::max({result.brightest_code, with.at(x, y).r, with.at(x, y).g, with.at(x, y).b});
+            }
+        }
+        return result;
+    }
+
+    // Beyond the footprint, short of the next star; off the axis the same angle spans more pixels.
+    static constexpr double kReachOnAxis_px = 5.0;
+    static constexpr int kReach_px = 25;
+    // Code of the start of the shoulder, 0.7 of full white.
+    static constexpr int kShoulder = 218;
+};
+
+// What the footprint of the brightest star has to add up to: its green light behind the air, as the eye model
+// shows points.
+double expected_energy_sr(const Scene& scene, double adaptation_cd_m2) {
+    const night::CatalogueStar& star = brightest_star();
+    const Horizontal at = horizontal_of(brightest_direction());
+    const sky::AirTables air(sky::air_model(scene.air));
+    const DisplaySettings display;
+    return night::star_illuminance_lux(star.vmag) * night::star_colour_of_bv(star.bv).y *
+           air.transmittance_rgb(scene.eye.height_m, at.elevation_rad).y * scene.stars.intensity *
+           eye::point_gain(display, adaptation_cd_m2) / display.max_luminance_cd_m2;
+}
+
+TEST_F(StarEnergy, IsTheStarsAtEverySubPixelOffsetAndInEveryCorner) {
+    const Channel channel{"c", 640, 512};
     const glm::dvec3 star = brightest_direction();
+    for (const double half_width_deg : {30.0, 55.0}) {
+        const Frustum frustum = symmetric_frustum(half_width_deg, channel.width_px, channel.height_px);
+        Scene scene = night_towards(star);
+        const glm::dmat3 towards_star = scene.views[0].view_from_enu;
+        scene.stars.intensity = half_width_deg > 45.0 ? 1.0 : 0.8;
+        Renderer renderer({channel}, undithered());
+        const double expected = expected_energy_sr(scene, renderer.prepare(scene).adaptation_cd_m2);
+        for (const auto& [x, y] :
+             {std::pair{320.5, 256.5}, std::pair{320.75, 256.5}, std::pair{321.0, 256.5},
+              std::pair{320.5, 256.8}, std::pair{321.0, 257.0}, std::pair{20.4, 30.2}, std::pair{619.1, 20.9},
+              std::pair{618.0, 490.0}, std::pair{20.5, 490.5}, std::pair{450.5, 100.5}}) {
+            scene.views[0] = {
+                frustum, rotation_between({0.0, 0.0, -1.0}, view_direction(channel, frustum, x, 512.0 - y)) *
+                             towards_star};
+            const Footprint drawn = footprint(renderer, scene, star);
+            ASSERT_GT(drawn.brightest_code, 60);
+            ASSERT_LT(drawn.brightest_code, kShoulder);
+            std::printf("%.0f deg, star at (%6.2f, %6.2f): brightest code %3d, energy %.4f of the star's\n",
+                        half_width_deg, x, y, drawn.brightest_code, drawn.energy_sr / expected);
+            EXPECT_NEAR(drawn.energy_sr / expected, 1.0, 0.03) << half_width_deg << " " << x << " " << y;
+        }
+    }
+}
+
+TEST_F(StarEnergy, ZoomMakesStarsStandOutAndLeavesTheSkyAlone) {
+    const glm::dvec3 star = brightest_direction();
+    const Channel channel{"only", 128, 128};
+    Renderer renderer({channel}, undithered());
     Scene near = night_towards(star);
     Scene far = near;
-    near.views[0].frustum = symmetric_frustum(1.0, 128, 128);
-    far.views[0].frustum = symmetric_frustum(40.0, 128, 128);
-    const auto zoomed = draw({{"only", 128, 128}}, near, undithered())[0];
-    const auto wide = draw({{"only", 128, 128}}, far, undithered())[0];
-    EXPECT_GE(zoomed.at(64, 64).g, wide.at(64, 64).g);
-    EXPECT_NEAR(zoomed.at(4, 64).g, wide.at(64, 56).g, 12);
+    near.stars.intensity = far.stars.intensity = 0.6;
+    near.views[0].frustum = symmetric_frustum(5.0, 128, 128);
+    far.views[0].frustum = symmetric_frustum(15.0, 128, 128);
+    const Footprint zoomed = footprint(renderer, near, star);
+    const Footprint wide = footprint(renderer, far, star);
+    ASSERT_LT(zoomed.brightest_code, kShoulder);
+    // The same energy on pixels of a smaller solid angle.
+    const double pixels = std::pow(std::tan(15.0 * kDegree) / std::tan(5.0 * kDegree), 2.0);
+    std::printf("codes %d and %d, peak %.2f-fold of %.2f, energy %.3f-fold\n", zoomed.brightest_code,
+                wide.brightest_code, zoomed.peak / wide.peak, pixels, zoomed.energy_sr / wide.energy_sr);
+    EXPECT_NEAR(zoomed.peak / wide.peak / pixels, 1.0, 0.1);
+    EXPECT_NEAR(zoomed.energy_sr / wide.energy_sr, 1.0, 0.05);
+
+    near.stars.enabled = far.stars.enabled = false;
+    const Picture zoomed_sky = draw(renderer, near)[0];
+    const Picture wide_sky = draw(renderer, far)[0];
+    for (const auto& [x, y] : {std::pair{4, 64}, std::pair{124, 64}, std::pair{64, 4}, std::pair{64, 124}}) {
+        const glm::dvec3 direction =
+            glm::transpose(near.views[0].view_from_enu) *
+            view_direction(channel, near.views[0].frustum, x + 0.5, channel.height_px - y - 0.5);
+        const glm::dvec2 there = picture_point(channel, far.views[0], direction);
+        EXPECT_LE(difference(zoomed_sky.at(x, y),
+                             wide_sky.at(static_cast<int>(there.x), static_cast<int>(there.y))),
+                  1);
+    }
 }
 
 TEST_F(StarPass, SwitchAndIntensityAreObeyed) {
