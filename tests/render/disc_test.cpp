@@ -73,17 +73,28 @@ TEST_F(Disc, MoonIsLitFromTheSideOfTheSun) {
     }
 }
 
-TEST_F(Disc, FullMoonIsWhiteAndNewMoonDark) {
-    Scene scene = make_scene(-30.0, 0.0, 30.0, 180.0, 0.0);
-    scene.stars.enabled = false;
-    scene.moon.to_sun_enu = -scene.moon.direction_enu;
-    scene.moon.phase_angle_rad = 0.0;
-    const Picture full = draw_towards(scene, 180.0, 30.0, 0.4);
-    scene.moon.to_sun_enu = scene.moon.direction_enu;
-    scene.moon.phase_angle_rad = std::numbers::pi;
-    const Picture dark = draw_towards(scene, 180.0, 30.0, 0.4);
-    EXPECT_GT(full.at(128, 128).g, 240);
-    EXPECT_LT(dark.at(128, 128).g, full.at(128, 128).g);
+TEST_F(Disc, FullMoonIsWhiteAndNewMoonHidesInTwilight) {
+    // By night the Earth's light shows the new Moon; a bright dusk drowns it, and nothing of the Sun's light
+    // may be left on its face.
+    for (const double sun_elevation : {-30.0, -3.0}) {
+        Scene scene = make_scene(sun_elevation, 0.0, 30.0, 180.0, 0.0);
+        scene.stars.enabled = false;
+        scene.moon.to_sun_enu = -scene.moon.direction_enu;
+        scene.moon.phase_angle_rad = 0.0;
+        const int full = draw_towards(scene, 180.0, 30.0, 0.4).at(128, 128).g;
+        scene.moon.to_sun_enu = scene.moon.direction_enu;
+        scene.moon.phase_angle_rad = std::numbers::pi;
+        const int dark = draw_towards(scene, 180.0, 30.0, 0.4).at(128, 128).g;
+        scene.moon.enabled = false;
+        const int sky = draw_towards(scene, 180.0, 30.0, 0.4).at(128, 128).g;
+        std::printf("sun at %5.1f deg: centre of the full Moon %d, of the new Moon %d, sky %d\n",
+                    sun_elevation, full, dark, sky);
+        EXPECT_GT(full, 240);
+        EXPECT_GE(dark, sky - 1);
+        if (sun_elevation > -10.0) {
+            EXPECT_LE(dark, sky + 4);
+        }
+    }
 }
 
 TEST_F(Disc, SettingSunIsCutByTheHorizon) {
@@ -94,16 +105,47 @@ TEST_F(Disc, SettingSunIsCutByTheHorizon) {
     EXPECT_LT(picture.at(128, 150).g, picture.at(128, 118).g - 20);
 }
 
-TEST_F(Disc, NewMoonCoversTheSun) {
+// New Moon before the Sun, which leaves over a share of its light that a test says.
+Scene eclipse(double moon_from_sun_radius, double unobscured) {
     Scene scene = make_scene(40.0, 180.0, 40.0, 180.0, 0.0);
-    scene.moon.angular_radius_rad = scene.sun.angular_radius_rad * 1.03;
+    scene.moon.angular_radius_rad = scene.sun.angular_radius_rad * moon_from_sun_radius;
     scene.moon.to_sun_enu = scene.moon.direction_enu;
     scene.moon.phase_angle_rad = std::numbers::pi;
+    scene.sun.unobscured = unobscured;
+    return scene;
+}
+
+TEST_F(Disc, NewMoonCoversTheSun) {
+    Scene scene = eclipse(1.03, 1e-4);
     const Picture with = draw_towards(scene, 180.0, 40.0, 1.0);
     scene.moon.enabled = false;
     const Picture without = draw_towards(scene, 180.0, 40.0, 1.0);
+    const Rgb covered = with.at(128, 128);
+    std::printf("covered Sun: %d %d %d\n", covered.r, covered.g, covered.b);
+    EXPECT_EQ(without.at(128, 128).r, 255);
     EXPECT_EQ(without.at(128, 128).b, 255);
-    EXPECT_LT(with.at(128, 128).b, 255);
+    EXPECT_LT(std::max({covered.r, covered.g, covered.b}), 200);
+    int brightest = 0;
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x)
+            brightest = std::max(brightest, with.at(x, y).g);
+    EXPECT_LT(brightest, 200) << "the Sun looks out from behind the Moon";
+}
+
+TEST_F(Disc, SmallerMoonLeavesARing) {
+    const Scene scene = eclipse(0.8, 0.36);
+    const Picture picture = draw_towards(scene, 180.0, 40.0, 1.0);
+    const double radius_px = std::tan(scene.sun.angular_radius_rad) / std::tan(1.0 * kDegree) * kSize / 2;
+    const int ring = static_cast<int>(0.9 * radius_px);
+    for (const auto& [x, y] : {std::pair{128 + ring, 128}, std::pair{127 - ring, 128},
+                               std::pair{128, 128 + ring}, std::pair{128, 127 - ring}}) {
+        EXPECT_EQ(picture.at(x, y).g, 255) << x << " " << y;
+    }
+    const int inside = picture.at(128, 128).g;
+    const int outside = picture.at(128 + static_cast<int>(1.3 * radius_px), 128).g;
+    std::printf("inside the ring %d, outside %d\n", inside, outside);
+    EXPECT_LT(inside, 245);
+    EXPECT_NEAR(inside, outside, 8);
 }
 
 TEST(MoonLight, PhaseFunctionHasItsClosedFormAndItsEnds) {
