@@ -54,12 +54,12 @@ std::unique_ptr<ImageWriter> open_images(const DaemonOptions& options, const con
         throw std::runtime_error(fmt::format("{}: cannot be made a directory for images: {}",
                                              options.out_directory, error.message()));
     }
-    return std::make_unique<ImageWriter>(options.out_directory, render_channels(config), kImageBuffers,
-                                         [](const std::string& path, const render::Channel& channel,
-                                            std::span<const std::byte> rgba, std::string& why) {
-                                             return render::output::write_png(path, channel.width_px,
-                                                                              channel.height_px, rgba, why);
-                                         });
+    return std::make_unique<ImageWriter>(
+        options.out_directory, render_channels(config), kImageBuffers,
+        [gamma = config.display.gamma](const std::string& path, const render::Channel& channel,
+                                       std::span<const std::byte> rgba, std::string& why) {
+            return render::output::write_png(path, channel.width_px, channel.height_px, rgba, why, gamma);
+        });
 }
 
 void say_banner(Log& log, const config::Config& config, const GlPainter& painter, const UdpLink& link) {
