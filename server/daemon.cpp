@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -99,14 +100,16 @@ void run(const DaemonOptions& options, const config::Config& config) {
     if (images) images->finish();
 
     const RunReport report = loop.report();
-    fmt::print("{}", to_table(report));
     if (!options.report_path.empty()) write_report(options.report_path, report);
+    fmt::print("{}", to_table(report));
     if (images && report.images_failed > 0) throw std::runtime_error(images->first_error());
 }
 
 }  // namespace
 
 int run_daemon(const DaemonOptions& options, const config::Config& config) {
+    // Who reads our lines may go at any time: that is a failed write, not our end.
+    std::signal(SIGPIPE, SIG_IGN);
     try {
         run(options, config);
         return 0;

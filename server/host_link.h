@@ -34,7 +34,8 @@ class HostLink {
     HostLink& operator=(HostLink&&) = delete;
     virtual ~HostLink() = default;
 
-    /// Hands on every datagram that has come, oldest first. Waits for nothing, allocates nothing.
+    /// Hands on the datagrams that have come, oldest first; what is more than a frame can take waits for the
+    /// next. Waits for nothing, allocates nothing.
     virtual void drain(DatagramTaker& taker) = 0;
     /// False when the system did not take it.
     virtual bool send(const protocol::transport::Endpoint& to, std::span<const std::byte> bytes) = 0;
@@ -48,7 +49,10 @@ class UdpLink final : public HostLink {
         : receiver_(std::move(receiver)), sender_(std::move(sender)) {}
 
     void drain(DatagramTaker& taker) override {
-        receiver_.drain([&taker](const protocol::transport::Datagram& datagram) { taker.take(datagram); });
+        // A flood may fill the ring; it may not hold a frame up. A host sends a few kilobytes a frame.
+        constexpr std::size_t kMostBytesAFrame = std::size_t{512} << 10U;
+        receiver_.drain([&taker](const protocol::transport::Datagram& datagram) { taker.take(datagram); },
+                        kMostBytesAFrame);
     }
     bool send(const protocol::transport::Endpoint& to, std::span<const std::byte> bytes) override {
         return sender_.send(to, bytes);

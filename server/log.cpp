@@ -1,6 +1,7 @@
 #include "server/log.h"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -11,9 +12,11 @@ namespace skyig::server {
 namespace {
 
 /// One write() a line, so that lines of several threads and processes do not mix. A closed stderr is nobody's
-/// concern.
+/// concern, and one that nobody reads loses lines, not frames.
 void write_all(int descriptor, std::string_view text) noexcept {
     while (!text.empty()) {
+        pollfd ready{descriptor, POLLOUT, 0};
+        if (::poll(&ready, 1, 0) <= 0 || (ready.revents & POLLOUT) == 0) return;
         const ssize_t written = ::write(descriptor, text.data(), text.size());
         if (written < 0 && errno == EINTR) continue;
         if (written <= 0) return;

@@ -61,6 +61,12 @@ class Session {
     /// The order to answer in: the machine's own, whatever the host's is.
     [[nodiscard]] static constexpr ByteOrder order() noexcept { return kNativeOrder; }
     [[nodiscard]] ByteOrder host_order() const noexcept { return host_order_; }
+    /// The next message begins a new sequence of frame numbers, whoever sends it; all else stays.
+    void new_peer() noexcept {
+        connected_ = false;
+        late_run_ = 0;
+    }
+
     [[nodiscard]] bool connected() const noexcept { return connected_; }
     [[nodiscard]] std::uint32_t ig_frame_number() const noexcept { return ig_frame_number_; }
     [[nodiscard]] std::uint32_t last_host_frame_number() const noexcept { return last_host_frame_number_; }

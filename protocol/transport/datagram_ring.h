@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -32,11 +33,12 @@ class DatagramRing {
 
     /// Consumer: `take(const Datagram&)` for each one that was there when the call began.
     template <class Take>
-    std::size_t drain(Take&& take) {
+    std::size_t drain(Take&& take, std::size_t most_bytes = std::numeric_limits<std::size_t>::max()) {
         const std::size_t end = written_.load(std::memory_order_acquire);
         std::size_t position = released_.load(std::memory_order_relaxed);
+        const std::size_t start = position;
         std::size_t taken = 0;
-        while (position != end) {
+        while (position != end && position - start < most_bytes) {
             const Record record = record_at(position);
             if (record.size != kSkipToStart) {
                 const std::span<const std::byte> bytes(storage_.get() + offset(position) + sizeof(Record),

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -66,10 +67,11 @@ class UdpReceiver {
     ~UdpReceiver();
 
     /// Calls `take(const Datagram&)` for each datagram that had come when the call began, oldest first; their
-    /// bytes live only as long as that call. One consumer thread. Returns how many.
+    /// bytes live only as long as that call. One consumer thread. Stops once `most_bytes` have been handed
+    /// on; the rest waits. Returns how many.
     template <class Take>
-    std::size_t drain(Take&& take) {
-        return ring().drain(take);
+    std::size_t drain(Take&& take, std::size_t most_bytes = std::numeric_limits<std::size_t>::max()) {
+        return ring().drain(take, most_bytes);
     }
 
     /// Waits until a datagram is in the ring or the time is over; true if one is. For consumers without a

@@ -78,17 +78,18 @@ ViewResult Views::apply(const protocol::cigi::ViewControl& control) noexcept {
 ViewResult Views::apply(const protocol::cigi::ViewDefinition& definition) noexcept {
     View* view = find(definition.view_id);
     if (view == nullptr) return ViewResult::kUnknownView;
-    view->group_id = definition.group_id;
-    view->mirror_mode = definition.mirror_mode;
-    view->orthographic = definition.projection_type;
-    if (view->orthographic) return ViewResult::kOrthographic;
     HalfAngles wanted = view->half_angles;
     if (definition.left_enable) wanted.left_deg = static_cast<double>(definition.left);
     if (definition.right_enable) wanted.right_deg = static_cast<double>(definition.right);
     if (definition.bottom_enable) wanted.bottom_deg = static_cast<double>(definition.bottom);
     if (definition.top_enable) wanted.top_deg = static_cast<double>(definition.top);
     if (!leaves_a_picture(wanted)) return ViewResult::kBadFrustum;
-    view->half_angles = wanted;
+    // Nothing of a refused packet is taken.
+    if (!definition.projection_type) view->half_angles = wanted;
+    view->group_id = definition.group_id;
+    view->mirror_mode = definition.mirror_mode;
+    view->orthographic = definition.projection_type;
+    if (view->orthographic) return ViewResult::kOrthographic;
     return view->mirror_mode == 0 ? ViewResult::kDone : ViewResult::kMirrored;
 }
 

@@ -48,10 +48,22 @@ bool WeatherStore::set(const WeatherControl& layer) noexcept {
 bool WeatherStore::set(const EnvRegionControl& region) noexcept {
     const auto id_of = [](const EnvRegionControl& item) { return item.region_id; };
     if (region.region_state != RegionState::kDestroyed) return store(regions_, region, kMaxRegions, id_of);
-    std::erase_if(regions_, [&](const EnvRegionControl& item) { return item.region_id == region.region_id; });
-    std::erase_if(layers_, [&](const WeatherControl& layer) {
-        return layer.scope == WeatherScope::kRegional && layer.entity_region_id == region.region_id;
-    });
+    const auto place =
+        std::lower_bound(regions_.begin(), regions_.end(), region,
+                         [id_of](const auto& a, const auto& b) { return id_of(a) < id_of(b); });
+    if (place != regions_.end() && place->region_id == region.region_id) regions_.erase(place);
+    // The layers of one region stand together: found, not searched for.
+    WeatherControl lowest;
+    lowest.scope = WeatherScope::kRegional;
+    lowest.entity_region_id = region.region_id;
+    lowest.layer_id = 0;
+    WeatherControl highest = lowest;
+    highest.layer_id = 255;
+    const auto by_key = [](const WeatherControl& a, const WeatherControl& b) {
+        return key_of(a) < key_of(b);
+    };
+    layers_.erase(std::lower_bound(layers_.begin(), layers_.end(), lowest, by_key),
+                  std::upper_bound(layers_.begin(), layers_.end(), highest, by_key));
     return true;
 }
 

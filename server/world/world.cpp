@@ -119,6 +119,8 @@ bool World::claim_link(const cigi::PacketInfo& info) {
                      to_string(from_), version_name(info.version), order_name(info.order));
         second_host_said_ = false;
     }
+    // Its frame numbers have nothing to do with those of whoever spoke before.
+    if (link_.state != LinkState::kAlive) session_.new_peer();
     link_.state = LinkState::kAlive;
     link_.host = from_;
     link_.silent_s = 0.0;

@@ -1,5 +1,6 @@
 #include "server/log.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -19,6 +20,50 @@ struct Kept {
     std::vector<std::string> lines;
     Log log{clock, [this](Severity, std::string_view line) { lines.emplace_back(line); }, Severity::kInfo};
 };
+
+/// Standard error for as long as it lives: a pipe whose other end the test holds.
+class PipeForStderr {
+  public:
+    PipeForStderr() : saved_(::dup(STDERR_FILENO)) {
+        EXPECT_EQ(::pipe2(ends_, O_NONBLOCK), 0);
+        ::dup2(ends_[1], STDERR_FILENO);
+    }
+    ~PipeForStderr() {
+        ::dup2(saved_, STDERR_FILENO);
+        ::close(saved_);
+        ::close(ends_[1]);
+        close_reader();
+    }
+    PipeForStderr(const PipeForStderr&) = delete;
+    PipeForStderr& operator=(const PipeForStderr&) = delete;
+    PipeForStderr(PipeForStderr&&) = delete;
+    PipeForStderr& operator=(PipeForStderr&&) = delete;
+
+    void fill() const {
+        const std::string block(4096, 'x');
+        while (::write(ends_[1], block.data(), block.size()) > 0) {
+        }
+        // From now on a write would wait, as on a terminal that has been stopped.
+        ::fcntl(ends_[1], F_SETFL, 0);
+    }
+    void close_reader() {
+        if (ends_[0] >= 0) ::close(ends_[0]);
+        ends_[0] = -1;
+    }
+
+  private:
+    int saved_;
+    int ends_[2] = {-1, -1};
+};
+
+TEST(Log, StderrThatNobodyReadsLosesLinesAndHoldsNobodyUp) {
+    ManualClock clock;
+    Log log(clock);
+    const PipeForStderr pipe;
+    pipe.fill();
+    for (int i = 0; i < 100; ++i)
+        log.error("line {}", i);  // would wait for ever
+}
 
 TEST(Log, WritesWhatIsImportantEnough) {
     ManualClock clock;

@@ -45,6 +45,19 @@ TEST(DatagramRing, GivesBackWhatWasPutInInOrder) {
     EXPECT_TRUE(ring.empty());
 }
 
+TEST(DatagramRing, LeavesTheRestOfAFloodForTheNextTime) {
+    DatagramRing ring(256 << 10U);
+    const auto bytes = numbered(0, 1000);
+    for (int i = 0; i < 100; ++i)
+        ASSERT_TRUE(ring.push({{}, i, bytes}));
+    std::int64_t next = 0;
+    const auto take = [&next](const Datagram& datagram) { EXPECT_EQ(datagram.arrival_ns, next++); };
+    EXPECT_EQ(ring.drain(take, 10000), 10U);
+    EXPECT_FALSE(ring.empty());
+    EXPECT_EQ(ring.drain(take), 90U);
+    EXPECT_TRUE(ring.empty());
+}
+
 TEST(DatagramRing, RefusesWhatDoesNotFitAndLosesNothingElse) {
     DatagramRing ring(256 << 10U);
     const auto large = numbered(0, 65507);

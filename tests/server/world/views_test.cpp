@@ -73,9 +73,13 @@ TEST(Views, DefinitionThatLeavesNoPictureKeepsTheFrustum) {
     const HalfAngles before = views.all()[2].half_angles;
     ViewDefinition definition;
     definition.view_id = 3;
+    definition.group_id = 7;
+    definition.mirror_mode = 1;
     definition.left_enable = true;
     definition.left = 30.0F;  // equals the right side that stays
     EXPECT_EQ(views.apply(definition), ViewResult::kBadFrustum);
+    EXPECT_NE(views.all()[2].group_id, 7) << "a refused packet is ignored whole";
+    EXPECT_EQ(views.all()[2].mirror_mode, 0);
     definition.left = -89.0F;
     EXPECT_EQ(views.apply(definition), ViewResult::kBadFrustum);
     EXPECT_EQ(views.all()[2].half_angles, before);
