@@ -14,7 +14,7 @@ namespace skyig::config {
 namespace {
 
 /// Nobody writes so much by hand; a mistaken path (a device, a recording) is told at once.
-constexpr std::size_t kMaxFileBytes = std::size_t{1} << 20U;
+constexpr std::size_t kMaxFileBytes = std::size_t{256} << 10U;
 
 LoadResult failed(const std::string& file, std::string message) {
     return {std::nullopt, {{file, 0, 0, {}, std::move(message)}}};
@@ -52,7 +52,7 @@ LoadResult load_config(const std::string& path) {
     const std::size_t size = std::fread(text.data(), 1, text.size(), file.get());
     if (std::ferror(file.get()) != 0)
         return failed(path, fmt::format("cannot be read: {}", std::strerror(errno)));
-    if (size > kMaxFileBytes) return failed(path, "is larger than 1 MiB: this is no configuration");
+    if (size > kMaxFileBytes) return failed(path, "is larger than 256 KiB: this is no configuration");
     text.resize(size);
     return parse_config(text, path);
 }

@@ -10,6 +10,78 @@
 namespace skyig::config {
 namespace {
 
+/// The library recurses once for every part of a dotted key, and so do we after it; no setting has more than
+/// two.
+constexpr int kMaxDotsPerLine = 32;
+
+/// Walks over TOML text and tells the dots that are part of neither a string nor a comment. It is in step
+/// with the library up to the first syntax error, where the library stops.
+class DotCounter {
+  public:
+    explicit DotCounter(std::string_view text) noexcept : text_(text) {}
+
+    /// Where a line has more than kMaxDotsPerLine dots; line 0 if none has.
+    [[nodiscard]] Place too_many() noexcept {
+        int dots = 0;
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (c == '\n') {
+                dots = 0;
+                start_line();
+            } else if (c == '#') {
+                at_ = std::min(text_.find('\n', at_), text_.size());
+            } else if (c == '"' || c == '\'') {
+                const int line = line_;
+                skip_string(c);
+                if (line_ != line) dots = 0;
+            } else {
+                if (c == '.' && ++dots > kMaxDotsPerLine)
+                    return {line_, static_cast<int>(at_ - line_begin_) + 1};
+                ++at_;
+            }
+        }
+        return {};
+    }
+
+  private:
+    void start_line() noexcept {
+        ++line_;
+        line_begin_ = ++at_;
+    }
+
+    [[nodiscard]] bool three_quotes(char quote) const noexcept {
+        return text_.size() - at_ >= 3 && text_[at_] == quote && text_[at_ + 1] == quote &&
+               text_[at_ + 2] == quote;
+    }
+
+    void skip_string(char quote) noexcept {
+        const bool many_lines = three_quotes(quote);
+        at_ += many_lines ? 3 : 1;
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (c == '\n') {
+                if (!many_lines) return;
+                start_line();
+            } else if (c == '\\' && quote == '"' && at_ + 1 < text_.size() && text_[at_ + 1] != '\n') {
+                at_ += 2;
+            } else if (c == quote && (!many_lines || three_quotes(quote))) {
+                at_ += many_lines ? 3 : 1;
+                // Up to two quotes before the closing three belong to the string.
+                for (int i = 0; many_lines && i < 2 && at_ < text_.size() && text_[at_] == quote; ++i)
+                    ++at_;
+                return;
+            } else {
+                ++at_;
+            }
+        }
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    std::size_t line_begin_ = 0;
+    int line_ = 1;
+};
+
 Place place_of(const toml::source_region& region) {
     return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
@@ -81,6 +153,13 @@ const Value* Table::find(std::string_view key) const noexcept {
 }
 
 bool parse_document(std::string_view text, Table& root, ConfigError& error) {
+    if (const Place place = DotCounter(text).too_many(); place.line > 0) {
+        error.line = place.line;
+        error.column = place.column;
+        error.message =
+            "keys are nested too deep: more than " + std::to_string(kMaxDotsPerLine) + " dots on a line";
+        return false;
+    }
     const toml::parse_result result = toml::parse(text);
     if (!result) {
         const Place place = place_of(result.error().source());

@@ -44,7 +44,9 @@ struct Value {
     Place key_place;
 };
 
-/// Reads TOML. On a syntax error `error` is filled (line, column, message) and the table is empty.
+/// Reads TOML. A line with more than 32 dots outside strings and comments is refused: its keys would nest
+/// deeper than a parser can follow. On a syntax error `error` is filled (line, column, message) and the table
+/// is empty.
 [[nodiscard]] bool parse_document(std::string_view text, Table& root, ConfigError& error);
 
 }  // namespace skyig::config

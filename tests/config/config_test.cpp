@@ -12,6 +12,7 @@ namespace skyig::config {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::string_view kChannel = R"([[channel]]
 name = "centre"
@@ -316,6 +317,48 @@ TEST(Config, SyntaxErrorsAreLocated) {
     EXPECT_FALSE(errors_of("version = \"\xff\xfe\"").empty());
 }
 
+std::string repeated(std::string_view part, std::size_t count) {
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i)
+        text += part;
+    return text;
+}
+
+TEST(Config, KeysNestedTooDeepAreRefusedWithTheirLine) {
+    const std::string deep = repeated("a.", 100'000) + "a";
+    for (const char* form : {"{} = 1", "[{}]", "[[{}]]", "x = {{{} = 1}}", R"(x = ["""q""""", {{{} = 1}}])",
+                             R"('k' . "\"" . {} = 1)"}) {
+        const std::string line = fmt::format(fmt::runtime(form), deep);
+        const LoadResult result = parse_config(fmt::format("version = 1\n# it's\n{}\n", line), "site.toml");
+        ASSERT_EQ(result.errors.size(), 1U) << form;
+        EXPECT_EQ(result.errors[0].line, 3) << form;
+        EXPECT_GT(result.errors[0].column, 60) << form;
+        EXPECT_THAT(result.errors[0].message, HasSubstr("nested too deep")) << form;
+    }
+    EXPECT_EQ(error_of(fmt::format("s = \"\"\"\n\n\"\"\"\n{} = 1\n", deep)).line, 4);
+}
+
+TEST(Config, DotsInStringsAndCommentsAreFree) {
+    const std::string dots = repeated(".", 200);
+    EXPECT_TRUE(parse_config(with(fmt::format("# {}\n[host] # {}", dots, dots)), "a"));
+    for (const char* form : {R"("\"{}")", "'{}'", "\"\"\"{}\n.\"\"\"", "''''{}'''"}) {
+        const std::string text = fmt::format(fmt::runtime(form), dots);
+        // Only the key is wrong.
+        EXPECT_EQ(error_of(with(fmt::format("[host]\nnothing = {}", text))).key, "host.nothing");
+    }
+    EXPECT_THAT(error_of(with(repeated("a.", 32) + "a = 1")).message, Not(HasSubstr("nested too deep")));
+    EXPECT_THAT(error_of(with(repeated("a.", 33) + "a = 1")).message, HasSubstr("nested too deep"));
+}
+
+TEST(Config, DeepestNestingOverManyLinesIsSurvived) {
+    const std::string open = fmt::format("[\n{{{}a = ", repeated("a.", 32));
+    for (const std::size_t levels : {100U, 125U, 1000U}) {
+        const std::string text = fmt::format("[{}b]\nx = {}1{}", repeated("b.", 32), repeated(open, levels),
+                                             repeated("}\n]", levels));
+        std::printf("  %s\n", to_text(errors_of(with(text)).at(0)).substr(0, 200).c_str());
+    }
+}
+
 TEST(Config, AnyMutilatedFileGivesAConfigOrErrors) {
     std::FILE* file = std::fopen(SKYIG_SOURCE_DIR "/config/examples/three-channels.toml", "rb");
     ASSERT_NE(file, nullptr);
@@ -353,7 +396,7 @@ TEST(Config, FilesThatCannotBeReadSayWhy) {
     const LoadResult folder = load_config(SKYIG_SOURCE_DIR);
     ASSERT_EQ(folder.errors.size(), 1U);
     EXPECT_THAT(folder.errors[0].message, HasSubstr("cannot be"));
-    EXPECT_THAT(load_config("/dev/zero").errors[0].message, HasSubstr("larger than 1 MiB"));
+    EXPECT_THAT(load_config("/dev/zero").errors[0].message, HasSubstr("larger than 256 KiB"));
 }
 
 TEST(Config, ExamplesLoadAndDescribeThemselves) {
