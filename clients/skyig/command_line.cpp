@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -46,13 +47,24 @@ CLI::Validator utc_time() {
     return {[](std::string& text) { return check_utc(text); }, "UTC"};
 }
 
+/// CLI::Range lets NaN through: no comparison with it is true.
+CLI::Validator finite_in(double lo, double hi) {
+    const auto check = [lo, hi](std::string& text) -> std::string {
+        double value = 0.0;
+        if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= lo && value <= hi)
+            return {};
+        return fmt::format("'{}' is not a number in [{:.9g}, {:.9g}]", text, lo, hi);
+    };
+    return {check, fmt::format("NUMBER in [{:.9g}, {:.9g}]", lo, hi)};
+}
+
 void add_host(CLI::App& app, HostOptions& options, std::string& order) {
     app.add_option("--flight", options.flight_path, "the flight to fly (CSV)")->required()->type_name("FILE");
     app.add_option("--utc", options.utc, "UTC at the start, as 2026-06-21T19:30:00Z")
         ->required()
         ->check(utc_time())
         ->type_name("TIME");
-    app.add_option("--rate", options.rate_hz, "messages a second (60)")->check(CLI::Range(1.0, 1000.0));
+    app.add_option("--rate", options.rate_hz, "messages a second (60)")->check(finite_in(1.0, 1000.0));
     app.add_option("--cigi", options.cigi, "protocol version, 3.3 or 4.0 (3.3)")
         ->check(CLI::IsMember({"3.3", "4.0"}))
         ->type_name("VERSION");
@@ -63,16 +75,17 @@ void add_host(CLI::App& app, HostOptions& options, std::string& order) {
         ->type_name("ADDRESS:PORT");
     app.add_option("--listen", options.listen, "where its answers come (127.0.0.1:8005)")
         ->type_name("ADDRESS:PORT");
-    app.add_option("--start-s", options.start_s, "begin at this second of the flight (its first)");
+    app.add_option("--start-s", options.start_s, "begin at this second of the flight (its first)")
+        ->check(finite_in(-1e9, 1e9));
     app.add_option("--duration", options.duration_s, "fly for so many seconds (to the end)")
-        ->check(CLI::Range(0.0, 1e6));
+        ->check(finite_in(0.0, 1e6));
     CLI::Option* yaw = app.add_option("--view-yaw", options.view_yaw_deg, "turn a view to the right, degrees")
-                           ->check(CLI::Range(-180.0, 180.0));
+                           ->check(finite_in(-180.0, 180.0));
     app.add_option("--view-id", options.view_id, "which view --view-yaw turns (1)")->needs(yaw);
     app.add_option("--visibility-m", options.visibility_m, "visibility at the ground, metres")
-        ->check(CLI::Range(0.0, 1e6));
+        ->check(finite_in(0.0, 1e6));
     app.add_option("--wait", options.wait_s, "seconds to wait for the first answer (10)")
-        ->check(CLI::Range(0.1, 3600.0));
+        ->check(finite_in(0.1, 3600.0));
     app.add_flag("--json", options.json, "tell the results as JSON");
 }
 
@@ -80,20 +93,20 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     CLI::Option* config = app.add_option("--config", options.config_path,
                                          "settings to start from (TOML); all their channels are drawn")
                               ->type_name("FILE");
-    app.add_option("--lat", options.latitude_deg, "latitude, degrees north")->check(CLI::Range(-90.0, 90.0));
+    app.add_option("--lat", options.latitude_deg, "latitude, degrees north")->check(finite_in(-90.0, 90.0));
     app.add_option("--lon", options.longitude_deg, "longitude, degrees east")
-        ->check(CLI::Range(-360.0, 360.0));
+        ->check(finite_in(-360.0, 360.0));
     app.add_option("--alt", options.height_m, "height above the WGS84 ellipsoid, metres")
-        ->check(CLI::Range(-430.0, 1e8));
+        ->check(finite_in(-430.0, 1e8));
     app.add_option("--utc", options.utc, "UTC, as 2026-06-21T19:30:00Z")
         ->check(utc_time())
         ->type_name("TIME");
     app.add_option("--heading", options.heading_deg, "degrees from true north")
-        ->check(CLI::Range(-360.0, 360.0));
-    app.add_option("--pitch", options.pitch_deg, "degrees nose up")->check(CLI::Range(-90.0, 90.0));
-    app.add_option("--roll", options.roll_deg, "degrees right wing down")->check(CLI::Range(-180.0, 180.0));
+        ->check(finite_in(-360.0, 360.0));
+    app.add_option("--pitch", options.pitch_deg, "degrees nose up")->check(finite_in(-90.0, 90.0));
+    app.add_option("--roll", options.roll_deg, "degrees right wing down")->check(finite_in(-180.0, 180.0));
     app.add_option("--visibility-m", options.visibility_m, "visibility at the ground, metres")
-        ->check(CLI::Range(10.0, 400'000.0));
+        ->check(finite_in(10.0, 400'000.0));
     app.add_option("--width", options.width_px, "pixels across (1280)")
         ->check(CLI::Range(1, 16384))
         ->excludes(config);
@@ -101,7 +114,7 @@ void add_shot(CLI::App& app, ShotOptions& options) {
         ->check(CLI::Range(1, 16384))
         ->excludes(config);
     app.add_option("--fov", options.fov_deg, "degrees across (60)")
-        ->check(CLI::Range(0.1, 170.0))
+        ->check(finite_in(0.1, 170.0))
         ->excludes(config);
     app.add_option("-o,--out", options.out_path,
                    "the PNG to write; with --config and several channels NAME_channel.png")

@@ -1,4 +1,5 @@
 // Exit statuses, error lines and files of the two programs.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -171,6 +172,18 @@ TEST(Skyig, WrongUsageOfVerbsIsStatusTwo) {
         skyig({"host", "--flight", flight, "--utc", "2026-06-21T12:00:00Z", "--to", "nowhere"}), "--to");
     expect_usage_error(skyig({"shot", "--out", "x.png", "--lat", "91"}), "--lat");
     expect_usage_error(skyig({"shot"}), "--out is required");
+}
+
+TEST(Skyig, NumbersThatAreNotFiniteAreWrongUsage) {
+    for (const char* number : {"nan", "-nan", "inf", "-inf", "1e999", "5x"}) {
+        for (const char* option :
+             {"--rate", "--start-s", "--duration", "--view-yaw", "--visibility-m", "--wait"})
+            expect_usage_error(skyig({"host", fmt::format("{}={}", option, number)}), option);
+        for (const char* option :
+             {"--lat", "--lon", "--alt", "--heading", "--pitch", "--roll", "--visibility-m", "--fov"})
+            expect_usage_error(skyig({"shot", "--out", "x.png", fmt::format("{}={}", option, number)}),
+                               option);
+    }
 }
 
 TEST(Skyig, FlightErrorsNameFileAndLine) {
