@@ -33,6 +33,7 @@ void AnswerStatistics::received(const cigi::StartOfFrame& start_of_frame, cigi::
             // An overtaken answer: it had been counted as lost.
             lost_ -= std::min<std::uint64_t>(lost_, 1);
             ++count_;
+            last_at_ns_ = at_ns;
             return;
         }
     }

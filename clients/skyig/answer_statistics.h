@@ -35,6 +35,7 @@ class AnswerStatistics {
 
     [[nodiscard]] const protocol::cigi::StartOfFrame& last() const noexcept { return last_; }
     [[nodiscard]] protocol::cigi::Version version() const noexcept { return version_; }
+    /// When the latest answer came, overtaken ones too.
     [[nodiscard]] std::int64_t last_at_ns() const noexcept { return last_at_ns_; }
 
   private:

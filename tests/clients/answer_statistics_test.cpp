@@ -66,6 +66,7 @@ TEST(AnswerStatistics, CountsGapsOvertakenAnswersAndRestarts) {
     receive(statistics, 2, 0, 4 * kMs);
     EXPECT_EQ(statistics.lost(), 2U) << "overtaken, not lost";
     EXPECT_EQ(statistics.last().ig_frame_number, 4U);
+    EXPECT_EQ(statistics.last_at_ns(), 4 * kMs);
     EXPECT_EQ(statistics.restarts(), 0U);
     receive(statistics, 5000, 0, 5 * kMs);
     const std::uint64_t lost = statistics.lost();
