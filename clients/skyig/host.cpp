@@ -60,6 +60,15 @@ Flight open_flight(const std::string& path) {
     return std::move(*flight);
 }
 
+double start_of(const HostOptions& options, const Flight& flight) {
+    const double first_s = flight.first_time_s(), last_s = flight.last_time_s();
+    const double start_s = options.start_s.value_or(first_s);
+    if (start_s >= first_s && start_s <= last_s) return start_s;
+    throw UsageError(
+        fmt::format("--start-s: {} is outside the flight, which goes from second {} to second {}", start_s,
+                    first_s, last_s));
+}
+
 HostSettings host_settings(const HostOptions& options) {
     HostSettings settings;
     settings.version = options.cigi == "4.0" ? cigi::Version::k40 : cigi::Version::k33;
@@ -82,22 +91,24 @@ class HostRun {
         : options_(options),
           clock_(clock),
           flight_(open_flight(options.flight_path)),
+          start_s_(start_of(options, flight_)),
+          duration_s_(options.duration_s.value_or(flight_.last_time_s() - start_s_)),
           to_(value_or_throw<UsageError>(transport::parse_endpoint(options.to), "--to")),
           receiver_(open_receiver()),
           sender_(value_or_throw<std::runtime_error>(receiver_.make_sender())),
           messages_(host_settings(options)),
-          pacer_(options.rate_hz),
-          start_s_(options.start_s.value_or(flight_.first_time_s())),
-          duration_s_(options.duration_s.value_or(std::max(flight_.last_time_s() - start_s_, 0.0))) {}
+          pacer_(options.rate_hz) {}
 
     HostResult fly(server::StopSignal& stop) {
-        while (!stop.requested() && (!flying_ || flown_s_ < duration_s_))
+        while (!complete() && !stop.requested())
             step();
         if (!flying_) throw std::runtime_error("stopped before the flight began");
         return result();
     }
 
   private:
+    [[nodiscard]] bool complete() const noexcept { return flying_ && flown_s_ >= duration_s_; }
+
     transport::UdpReceiver open_receiver() const {
         transport::UdpOptions udp;
         udp.listen = value_or_throw<UsageError>(transport::parse_endpoint(options_.listen), "--listen");
@@ -132,6 +143,7 @@ class HostRun {
                                                const cigi::PacketInfo& info) {
                 statistics_.received(start_of_frame, info.version, datagram.arrival_ns);
                 messages_.answered(start_of_frame);
+                heard_at_ns_ = clock_.monotonic_ns();
             };
             cigi::decode_ig_message(datagram.bytes, on_start_of_frame, counters_);
         });
@@ -151,7 +163,7 @@ class HostRun {
 
     void check_alive() const {
         if (statistics_.count() == 0) return;
-        const double silent_s = static_cast<double>(clock_.utc_ns() - statistics_.last_at_ns()) * 1e-9;
+        const double silent_s = static_cast<double>(clock_.monotonic_ns() - heard_at_ns_) * 1e-9;
         if (silent_s < kSilent_s) return;
         throw std::runtime_error(
             fmt::format("{} stopped answering {:.1f} s ago, {:.1f} s of the flight are flown", options_.to,
@@ -163,6 +175,8 @@ class HostRun {
         result.flight = options_.flight_path;
         result.to = options_.to;
         result.flown_s = flown_s_;
+        result.asked_s = duration_s_;
+        result.complete = complete();
         result.rate_hz = options_.rate_hz;
         result.messages = messages_.frame_number();
         result.late_messages = late_;
@@ -183,6 +197,8 @@ class HostRun {
     const HostOptions& options_;
     server::Clock& clock_;
     Flight flight_;
+    double start_s_;
+    double duration_s_;
     transport::Endpoint to_;
     transport::UdpReceiver receiver_;
     transport::UdpSender sender_;
@@ -190,8 +206,7 @@ class HostRun {
     AnswerStatistics statistics_;
     cigi::Counters counters_;
     server::FramePacer pacer_;
-    double start_s_;
-    double duration_s_;
+    std::int64_t heard_at_ns_ = 0;
     double waited_s_ = 0.0;
     double flown_s_ = 0.0;
     bool flying_ = false;
@@ -201,14 +216,21 @@ class HostRun {
 }  // namespace
 
 int run_host(const HostOptions& options) {
+    server::SystemClock clock;
+    return run_host(options, clock);
+}
+
+int run_host(const HostOptions& options, server::Clock& clock) {
     constexpr int kFailed = 1;
     constexpr int kWrongUsage = 2;
     try {
         server::StopSignal stop;
-        server::SystemClock clock;
         const HostResult result = HostRun(options, clock).fly(stop);
         fmt::print("{}", options.json ? to_json(result) : to_text(result));
-        return 0;
+        if (result.complete) return 0;
+        fmt::print(stderr, "skyig host: interrupted after {:.1f} s of {:.1f} s\n", result.flown_s,
+                   result.asked_s);
+        return kFailed;
     } catch (const UsageError& error) {
         fmt::print(stderr, "skyig host: {}\n", error.what());
         return kWrongUsage;

@@ -10,8 +10,9 @@ namespace skyig::clients {
 std::string to_text(const HostResult& result) {
     std::string text;
     const auto out = std::back_inserter(text);
-    fmt::format_to(out, "flown           {}: {:.1f} s, {} messages at {:g} Hz, {} late\n", result.flight,
-                   result.flown_s, result.messages, result.rate_hz, result.late_messages);
+    fmt::format_to(out, "flown           {}: {:.1f} s, {} messages at {:g} Hz, {} late{}\n", result.flight,
+                   result.flown_s, result.messages, result.rate_hz, result.late_messages,
+                   result.complete ? "" : ", interrupted");
     fmt::format_to(out, "answers         {}: CIGI {}, mode {}, database {}\n", result.to, result.version,
                    result.mode, result.database_number);
     fmt::format_to(out, "Start of Frame  {} received, {:.1f} a second, {} lost, {} restarts\n",
@@ -26,6 +27,7 @@ std::string to_json(const HostResult& result) {
     nlohmann::ordered_json json;
     json["flight"] = result.flight;
     json["flown_s"] = result.flown_s;
+    json["complete"] = result.complete;
     json["rate_hz"] = result.rate_hz;
     json["messages"] = result.messages;
     json["late_messages"] = result.late_messages;

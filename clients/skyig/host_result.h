@@ -10,6 +10,10 @@ struct HostResult {
     std::string flight;
     std::string to;
     double flown_s = 0.0;
+    /// What was to be flown.
+    double asked_s = 0.0;
+    /// All that was asked for is flown; false after an interrupt.
+    bool complete = false;
     double rate_hz = 0.0;
     std::uint64_t messages = 0;
     std::uint64_t late_messages = 0;
