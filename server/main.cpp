@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <optional>
@@ -24,6 +25,8 @@ void declare(CLI::App& app, DaemonOptions& options) {
     app.add_flag("--check", options.check, "check the settings, say all that is wrong, and end");
     app.add_flag("--headless")->description("no windows, whatever the settings say");
     app.add_option("--frames", options.frames, "end after N frames (0: run until SIGINT or SIGTERM)")
+        // As signed numbers: a negative one would wrap to a count without end.
+        ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000'000}))
         ->type_name("N");
     CLI::Option* out =
         app.add_option("--out", options.out_directory, "write the channels' images here as PNG")

@@ -81,7 +81,9 @@ void add_host(CLI::App& app, HostOptions& options, std::string& order) {
         ->check(finite_in(0.0, 1e6));
     CLI::Option* yaw = app.add_option("--view-yaw", options.view_yaw_deg, "turn a view to the right, degrees")
                            ->check(finite_in(-180.0, 180.0));
-    app.add_option("--view-id", options.view_id, "which view --view-yaw turns (1)")->needs(yaw);
+    app.add_option("--view-id", options.view_id, "which view --view-yaw turns (1)")
+        ->check(CLI::Range(0, 65535))
+        ->needs(yaw);
     app.add_option("--visibility-m", options.visibility_m, "visibility at the ground, metres")
         ->check(finite_in(0.0, 1e6));
     app.add_option("--wait", options.wait_s, "seconds to wait for the first answer (10)")

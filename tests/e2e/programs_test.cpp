@@ -72,6 +72,8 @@ TEST(Skyigd, WrongUsageIsOneLineAndStatusTwo) {
     expect_usage_error(skyigd({}), "--config is required");
     expect_usage_error(skyigd({"--config", site.config_path, "--frmes", "3"}), "--frmes");
     expect_usage_error(skyigd({"--config", site.config_path, "--frames", "many"}), "--frames");
+    for (const char* frames : {"--frames=-1", "--frames=1000000000001", "--frames=18446744073709551616"})
+        expect_usage_error(skyigd({"--config", site.config_path, frames}), "--frames");
     expect_usage_error(skyigd({"--config", site.config_path, "--out", "x", "--out-every", "0"}),
                        "--out-every");
     expect_usage_error(skyigd({"--config", site.config_path, "--out-every", "2"}), "--out");
@@ -171,6 +173,8 @@ TEST(Skyig, WrongUsageOfVerbsIsStatusTwo) {
     expect_usage_error(
         skyig({"host", "--flight", flight, "--utc", "2026-06-21T12:00:00Z", "--to", "nowhere"}), "--to");
     expect_usage_error(skyig({"shot", "--out", "x.png", "--lat", "91"}), "--lat");
+    for (const char* view : {"--view-id=-1", "--view-id=65536", "--view-id=4294967297"})
+        expect_usage_error(skyig({"host", "--view-yaw", "5", view}), "--view-id");
     expect_usage_error(skyig({"shot"}), "--out is required");
 }
 
