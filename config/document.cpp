@@ -5,6 +5,9 @@
 #define TOML_HEADER_ONLY 1
 #define TOML_EXCEPTIONS 0
 #define TOML_ENABLE_FORMATTERS 0
+// Lists and tables in one another may each be on a line of their own, with its own dots; no setting has
+// three.
+#define TOML_MAX_NESTED_VALUES 16
 #include <toml++/toml.h>
 
 namespace skyig::config {

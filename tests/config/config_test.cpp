@@ -352,10 +352,12 @@ TEST(Config, DotsInStringsAndCommentsAreFree) {
 
 TEST(Config, DeepestNestingOverManyLinesIsSurvived) {
     const std::string open = fmt::format("[\n{{{}a = ", repeated("a.", 32));
-    for (const std::size_t levels : {100U, 125U, 1000U}) {
+    for (const std::size_t levels : {7U, 125U, 1000U}) {
         const std::string text = fmt::format("[{}b]\nx = {}1{}", repeated("b.", 32), repeated(open, levels),
                                              repeated("}\n]", levels));
-        std::printf("  %s\n", to_text(errors_of(with(text)).at(0)).substr(0, 200).c_str());
+        const std::string told = to_text(errors_of(with(text)).at(0));
+        std::printf("  %s\n", told.substr(0, 200).c_str());
+        EXPECT_EQ(told.find("nested value depth") == std::string::npos, levels == 7U);
     }
 }
 
