@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "render/colour.h"
 #include "render/night/moon_light.h"
 #include "render/shaders/shared.h"
 #include "tests/render/gl_fixture.h"
@@ -181,6 +182,13 @@ TEST(MoonLight, DiscIntegratesToItsPhaseFunction) {
         }
         EXPECT_NEAR(sum / inside, shaders64::lommel_seeliger_phase(phase), 3e-3) << phase;
     }
+}
+
+TEST(MoonLight, TintOnXyzIsTheTintOnRgb) {
+    const glm::dvec3 white_xyz = glm::inverse(kRec709FromXyz) * glm::dvec3{1.0};
+    const glm::dvec3 tinted = kRec709FromXyz * (white_xyz * night::moon_tint_xyz());
+    EXPECT_LT(glm::length(tinted - night::moon_tint_rgb()), 1e-12);
+    EXPECT_NEAR(night::moon_tint_xyz().y, 1.0, 1e-4) << "the tint changes no luminance";
 }
 
 TEST(MoonLight, FullMoonGivesAThirdOfALux) {
