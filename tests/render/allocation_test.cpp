@@ -2,42 +2,9 @@
 // counted. That our sources never call malloc themselves is the layering test's business.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "render/light_tables.h"
 #include "tests/render/gl_fixture.h"
-
-namespace {
-
-std::atomic<long> news{0};
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-    news.fetch_add(1, std::memory_order_relaxed);
-    if (void* p = std::malloc(size)) return p;
-    throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-    news.fetch_add(1, std::memory_order_relaxed);
-    const auto a = static_cast<std::size_t>(alignment);
-    if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
-    throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::align_val_t) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-    std::free(p);
-}
+#include "tests/support/allocation_count.h"
 
 namespace skyig::render {
 namespace {
@@ -56,10 +23,10 @@ class Flight {
 
     /// \return calls of operator new, in all threads
     long frames(int count) {
-        const long before = news.load();
+        const long before = static_cast<long>(skyig::tests::allocation_count());
         for (int i = 0; i < count; ++i)
             frame();
-        return news.load() - before;
+        return static_cast<long>(skyig::tests::allocation_count()) - before;
     }
 
     [[nodiscard]] int air_passes() const { return air_passes_; }

@@ -6,25 +6,15 @@
 #include <cmath>
 #include <vector>
 
-#include "render/shaders/shared.h"
-#include "tests/render/scenes.h"
+#include "tests/render/light_tables_steps.h"
 
 namespace skyig::render {
 namespace {
 
 using tests::kDegree;
+using tests::luminance;
 using tests::make_scene;
-
-double luminance(const SkyLight& light, double elevation_deg, double azimuth_deg) {
-    return static_cast<double>(shaders32::luminance_709(
-        light.rgb_cd_m2(elevation_deg * kDegree, azimuth_deg * kDegree, Side::kByElevation)));
-}
-
-SkyLight step(LightTables& tables, const Scene& scene) {
-    const Plan plan = make_plan(scene, tables.held(scene));
-    tables.update(scene, plan);
-    return tables.light(scene, plan);
-}
+using tests::step;
 
 TEST(LightTables, FirstFrameIsComplete) {
     LightTables tables;
@@ -92,20 +82,6 @@ TEST(LightTables, FullMoonLightsTheNightAFewHundredThousandthsOfTheDay) {
     EXPECT_LT(night / day, 4.0e-6);
 }
 
-TEST(LightTables, MoonlightNeverPopsInTwilight) {
-    // The descent of the Sun at ten times its pace: each frame differs from the last by less than a display
-    // code.
-    double last = 0.0;
-    LightTables tables;
-    for (double sun = -2.5; sun > -6.5; sun -= 0.0014) {
-        const double now = luminance(step(tables, make_scene(sun, 270, 30, 90, 0)), 40, 0);
-        if (last > 0.0) {
-            EXPECT_LT(std::abs(std::log10(now / last)), 0.01) << sun;
-        }
-        last = now;
-    }
-}
-
 TEST(LightTables, EyeBelowTheEllipsoidKeepsItsTables) {
     for (const double height_m : {-3.0, -30.0, -400.0}) {
         LightTables tables;
@@ -133,34 +109,6 @@ TEST(LightTables, HorizonFollowsTheEyeExactlyInAClimb) {
         const SkyLight light = step(tables, make_scene(20, 180, -20, 0, height_m));
         EXPECT_NEAR(light.horizon_elevation_rad, -std::acos(6371e3 / (6371e3 + height_m)), 1e-9);
     }
-}
-
-// No direction of the sky changes by more than a little from one frame to the next while Sun or Moon sink.
-void expect_no_pop(double from_deg, double to_deg, bool moon_sinks) {
-    LightTables tables;
-    std::vector<double> last;
-    double worst = 0.0;
-    for (double at = from_deg; at > to_deg; at -= 0.0028) {
-        const SkyLight light = moon_sinks ? step(tables, make_scene(-40, 90, at, 270, 0))
-                                          : step(tables, make_scene(at, 270, 30, 90, 0));
-        std::vector<double> now;
-        for (const double elevation : {-10.0, -1.0, 0.3, 1.0, 2.0, 5.0, 20.0, 60.0}) {
-            for (const double azimuth : {0.0, 180.0, 270.0})
-                now.push_back(luminance(light, elevation, azimuth));
-        }
-        for (std::size_t i = 0; i < last.size(); ++i)
-            worst = std::max(worst, std::abs(std::log10(now[i] / last[i])));
-        last = now;
-    }
-    std::printf("largest step of a frame: %.4f decades\n", worst);
-    EXPECT_LT(worst, 0.02);
-}
-
-TEST(LightTables, SunlightEndsWithoutAPop) {
-    expect_no_pop(-17.0, -22.0, false);
-}
-TEST(LightTables, MoonlightEndsWithoutAPop) {
-    expect_no_pop(-5.0, -11.0, true);
 }
 
 TEST(LightTables, DarkSkyIsBrighterThanTheGroundDownToTheHorizon) {

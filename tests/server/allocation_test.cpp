@@ -2,44 +2,11 @@
 // program is counted.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstdio>
-#include <cstdlib>
-#include <new>
 
 #include "server/scene_builder.h"
 #include "tests/server/world/host_bench.h"
-
-namespace {
-
-std::atomic<std::uint64_t> allocations{0};
-
-void* counted(std::size_t size) {
-    allocations.fetch_add(1, std::memory_order_relaxed);
-    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-    throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-    return counted(size);
-}
-void* operator new[](std::size_t size) {
-    return counted(size);
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
+#include "tests/support/allocation_count.h"
 
 namespace skyig::server {
 namespace {
@@ -100,9 +67,9 @@ TEST(SteadyState, NeitherPacketsNorFramesAllocate) {
         }
     };
     run(0, 200);  // first lines of the log, first regions
-    const std::uint64_t before = allocations.load();
+    const std::uint64_t before = skyig::tests::allocation_count();
     run(200, 1200);
-    const std::uint64_t made = allocations.load() - before;
+    const std::uint64_t made = skyig::tests::allocation_count() - before;
     std::printf("  %llu allocations in 1000 frames with 14 packets each; checksum %.3f\n",
                 static_cast<unsigned long long>(made), sum);
     EXPECT_EQ(made, 0U);

@@ -6,15 +6,15 @@
 #include "protocol/cigi/message.h"
 #include "protocol/cigi/session.h"
 #include "tests/protocol/cigi/golden.h"
-#include "tests/protocol/counting_new.h"
+#include "tests/support/allocation_count.h"
 
 namespace skyig::protocol::cigi {
 namespace {
 
 TEST(Allocation, IsSeenByTheCounter) {
-    const std::uint64_t before = allocation_count();
+    const std::uint64_t before = skyig::tests::allocation_count();
     ::operator delete(::operator new(8));  // a plain call, which the compiler may not leave out
-    EXPECT_EQ(allocation_count() - before, 1U);
+    EXPECT_EQ(skyig::tests::allocation_count() - before, 1U);
 }
 
 TEST(Allocation, NoneInDecodingAnsweringAndWriting) {
@@ -25,7 +25,7 @@ TEST(Allocation, NoneInDecodingAnsweringAndWriting) {
     Session session;
     std::uint64_t packets = 0;
     const auto begin = std::chrono::steady_clock::now();
-    const std::uint64_t before = allocation_count();
+    const std::uint64_t before = skyig::tests::allocation_count();
     for (int round = 0; round < kRounds; ++round) {
         for (const GoldenDatagram& golden : goldens) {
             MessageWriter writer(buffer, golden.version, golden.order);
@@ -40,7 +40,7 @@ TEST(Allocation, NoneInDecodingAnsweringAndWriting) {
             static_cast<void>(writer.add(session.next_frame(0)));
         }
     }
-    const std::uint64_t counted = allocation_count() - before;
+    const std::uint64_t counted = skyig::tests::allocation_count() - before;
     const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - begin;
     std::printf("%llu packets read, checked and written, %.1f ns each, %llu allocations\n",
                 static_cast<unsigned long long>(packets), time.count() / static_cast<double>(packets),

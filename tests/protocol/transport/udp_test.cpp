@@ -6,7 +6,7 @@
 #include <array>
 #include <thread>
 
-#include "tests/protocol/counting_new.h"
+#include "tests/support/allocation_count.h"
 
 namespace skyig::protocol::transport {
 namespace {
@@ -190,10 +190,10 @@ TEST(Udp, SteadyReceivingAllocatesNothing) {
         taken += receiver.drain([](const Datagram&) {});
     };
     exchange();
-    const std::uint64_t before = allocation_count();
+    const std::uint64_t before = skyig::tests::allocation_count();
     for (int i = 0; i < 1000; ++i)
         exchange();
-    EXPECT_EQ(allocation_count() - before, 0U);
+    EXPECT_EQ(skyig::tests::allocation_count() - before, 0U);
     EXPECT_EQ(taken, 1001U);
 }
 

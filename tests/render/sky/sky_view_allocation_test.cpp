@@ -1,49 +1,19 @@
 // Counts every allocation of the program; a view must not make one after its constructor.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstdio>
-#include <cstdlib>
-#include <new>
 
 #include "render/sky/sky_view.h"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
-    ++allocations;
-    const auto step = static_cast<std::size_t>(alignment);
-    if (void* memory = std::aligned_alloc(step, (size + step - 1) / step * step)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-    std::free(memory);
-}
+#include "tests/support/allocation_count.h"
 
 namespace skyig::render::sky {
 namespace {
 
 TEST(SkyView, AllocatesOnlyInItsConstructor) {
     const AirTables tables(air_model({}));
-    const long before_view = allocations;
+    const std::uint64_t before_view = skyig::tests::allocation_count();
     SkyView view;
-    const long after_view = allocations;
+    const std::uint64_t after_view = skyig::tests::allocation_count();
     EXPECT_GT(after_view, before_view);
     float sum = 0.0F;
     for (const double source : {0.5, -0.1}) {
@@ -56,9 +26,11 @@ TEST(SkyView, AllocatesOnlyInItsConstructor) {
         }
         sum += static_cast<float>(tables.direct_sun_xyz(0.0, 0.5).y + tables.transmittance_rgb(0.0, 0.5).x);
     }
-    const long made = allocations - after_view;
-    std::printf("%ld allocations in the constructor, %ld after it\n", after_view - before_view, made);
-    EXPECT_EQ(made, 0);
+    const std::uint64_t made = skyig::tests::allocation_count() - after_view;
+    std::printf("%llu allocations in the constructor, %llu after it\n",
+                static_cast<unsigned long long>(after_view - before_view),
+                static_cast<unsigned long long>(made));
+    EXPECT_EQ(made, 0U);
     EXPECT_GT(sum, 0.0F);
 }
 

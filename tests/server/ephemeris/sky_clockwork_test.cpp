@@ -10,30 +10,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
-#include <new>
 #include <string_view>
 
 #include "tests/server/ephemeris/truth.h"
-
-namespace {
-// This program only: every allocation through operator new is counted.
-std::uint64_t allocations = 0;
-}  // namespace
-
-void* operator new(std::size_t size) {
-    ++allocations;
-    void* const memory = std::malloc(size == 0 ? 1 : size);
-    if (memory == nullptr) throw std::bad_alloc();
-    return memory;
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
+#include "tests/support/allocation_count.h"
 
 namespace skyig::server::ephemeris {
 namespace {
@@ -164,13 +145,13 @@ TEST(SkyClockwork, TakesAnInstantThatIsNoneForTheDefault) {
 TEST(SkyClockwork, AllocatesNothing) {
     SkyClockwork clockwork;
     UtcClockTime time = clock_at("2016-12-31T23:55:00Z");
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = skyig::tests::allocation_count();
     double sum = 0.0;
     for (int frame = 0; frame < 1000; ++frame) {
         time.advance(1.0);
         sum += clockwork.state(make_instant(time), kEye).sun.direction_enu.z;
     }
-    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(skyig::tests::allocation_count(), before);
     EXPECT_TRUE(std::isfinite(sum));
 }
 

@@ -13,7 +13,7 @@
 
 #include "protocol/cigi/message.h"
 #include "server/from_config.h"
-#include "tests/server/loop/allocation_count.h"
+#include "tests/support/allocation_count.h"
 
 namespace skyig::server {
 namespace {
@@ -366,9 +366,9 @@ TEST_F(FrameLoopTest, AllocatesNothingInSteadyState) {
         }
     };
     run(0, 100);
-    const std::uint64_t before = allocations_of_this_thread();
+    const std::uint64_t before = skyig::tests::allocation_count_of_this_thread();
     run(100, 1100);
-    const std::uint64_t allocations = allocations_of_this_thread() - before;
+    const std::uint64_t allocations = skyig::tests::allocation_count_of_this_thread() - before;
     std::printf("allocations in 1000 frames: %llu\n", static_cast<unsigned long long>(allocations));
     EXPECT_EQ(allocations, 0U);
     EXPECT_NEAR(painter_.last_scene.eye.latitude_deg, 45.011, 1e-6);
