@@ -33,7 +33,27 @@ struct Moon {
     glm::dvec3 to_sun_enu{0.0, 0.0, 1.0};
     /// Angle Sun-Moon-eye: 0 full, pi new.
     double phase_angle_rad = 0.0;
+    /// East-north-up from selenographic axes (x to the mean Earth point, z to the lunar north pole).
+    glm::dmat3 enu_from_selenographic{1.0};
+    /// The Earth's shadow at the Moon, in units of the Moon's radius: from the Moon's centre to the shadow's
+    /// axis, and how far from the axis umbra and penumbra end.
+    glm::dvec3 shadow_axis_enu{1e3, 0.0, 0.0};
+    double umbra_radius = 2.6;
+    double penumbra_radius = 4.7;
+    /// Part of its sunlight that the Earth's shadow leaves to the whole disc, 0..1.
+    double sunlit = 1.0;
 };
+
+/// A planet is a star that wanders.
+struct Planet {
+    glm::dvec3 direction_enu{0.0, 0.0, -1.0};
+    /// Outside the air.
+    double magnitude = 0.0;
+    /// Johnson B-V.
+    double bv = 0.8;
+};
+
+inline constexpr std::size_t kPlanetCount = 5;
 
 struct Stars {
     bool enabled = true;
@@ -78,6 +98,8 @@ struct Scene {
     Sun sun;
     Moon moon;
     Stars stars;
+    /// Mercury, Venus, Mars, Jupiter, Saturn; switched and faded with the stars.
+    std::array<Planet, kPlanetCount> planets{};
     Air air;
 
     std::array<ChannelView, kMaxChannels> views{};

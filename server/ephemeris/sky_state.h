@@ -1,9 +1,11 @@
-// Where Sun and Moon stand for an eye near the Earth, and how the star sky is turned: first rung, all from
-// ERFA.
+// Where Sun, Moon and planets stand for an eye near the Earth, and how the star sky is turned.
 #pragma once
+
+#include <array>
 
 #include <glm/glm.hpp>
 
+#include "server/ephemeris/bodies.h"
 #include "server/ephemeris/time.h"
 
 namespace skyig::server::ephemeris {
@@ -49,14 +51,46 @@ struct MoonState {
     /// Position angle of the bright limb's middle, from the celestial pole of date through east, -pi..pi.
     /// Finite, but without meaning where the Sun is exactly behind or opposite the Moon.
     double bright_limb_rad = 0.0;
+    /// V magnitude outside the air, without opposition surge and Earth's shadow.
+    double magnitude = -12.7;
+    /// East-north-up from selenographic axes (x to the mean Earth point, z to the lunar north pole), optical
+    /// libration: which side is seen and which way up it stands.
+    glm::dmat3 enu_from_selenographic{1.0};
+    /// The Earth's shadow where the Moon is, in units of the Moon's radius: from the Moon's centre to the
+    /// shadow's axis (perpendicular to it), and how wide umbra and penumbra are there. A body of the Moon
+    /// further from the axis than the penumbra is in full sunlight.
+    glm::dvec3 shadow_axis_enu{1e3, 0.0, 0.0};
+    double umbra_radius = 2.6;
+    double penumbra_radius = 4.7;
+    /// Part of the sunlight that the Earth leaves to the lit disc, 0..1: 1 outside the penumbra, 0 inside the
+    /// umbra (what the Earth's air bends into it is for the one who draws it).
+    double sunlit = 1.0;
+};
+
+/// Apparent place of a planet: topocentric, airless, with light time, deflection by the Sun and aberration.
+struct PlanetState {
+    glm::dvec3 direction_enu{0.0, 0.0, -1.0};
+    double distance_km = 1e8;
+    double angular_radius_rad = 0.0;
+    /// Angle Sun-planet-eye.
+    double phase_angle_rad = 0.0;
+    double lit_fraction = 1.0;
+    double bright_limb_rad = 0.0;
+    /// V magnitude outside the air, the rings of Saturn included.
+    double magnitude = 0.0;
 };
 
 struct SkyState {
     SunState sun;
     MoonState moon;
+    /// kMercury .. kSaturn.
+    std::array<PlanetState, kPlanetCount> planets;
     /// East-north-up at the eye (WGS84 vertical) from GCRS: precession, nutation, Earth rotation and site in
     /// one rotation.
     glm::dmat3 enu_from_gcrs{1.0};
+    /// True equator and equinox of date from GCRS: right ascension and declination of date are read off
+    /// there.
+    glm::dmat3 true_of_date_from_gcrs{1.0};
     /// Barycentric velocity of the Earth's centre in units of c, GCRS axes: a star at p is seen at
     /// normalise(p + v).
     glm::dvec3 earth_velocity_c{0.0};
