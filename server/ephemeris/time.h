@@ -79,6 +79,9 @@ struct JulianDate {
 struct Instant {
     JulianDate tt{2451544.5, 0.5 + 64.184 / 86400.0};
     JulianDate ut1{2451544.5, 0.5};
+    /// Coordinates of the pole (ITRS, as bulletins give them); 0 without a file of Earth orientation.
+    double polar_x_rad = 0.0;
+    double polar_y_rad = 0.0;
     /// The UTC was outside 1900-01-01 .. 2100-12-31 and the nearest end of that span is used.
     bool clamped = false;
     /// No leap seconds are announced that far ahead: TT - UTC is held at its last value. No error; worth one
