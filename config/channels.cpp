@@ -1,7 +1,6 @@
 // The [[channel]] tables: each for itself, then against one another.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "config/schema.h"
@@ -16,13 +15,6 @@ struct ChannelPlaces {
     Place offset;
     bool named = false;
 };
-
-bool is_file_name_part(std::string_view name) {
-    return !name.empty() && name.size() <= 32 && std::all_of(name.begin(), name.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-               c == '_';
-    });
-}
 
 void read_offset(TableReader& table, Channel& channel, ChannelPlaces& places) {
     const Value* value = table.any("offset_m");
@@ -67,7 +59,7 @@ ChannelPlaces read_channel(TableReader& table, Channel& channel) {
     places.name = places.view_id = places.offset = table.place();
     if (const Value* value = table.text("name", channel.name); value != nullptr) {
         places.name = value->place;
-        places.named = is_file_name_part(channel.name);
+        places.named = is_short_name(channel.name);
         if (!places.named) {
             table.error(
                 *value, "name",

@@ -9,6 +9,7 @@
 
 #include "config/channel.h"
 #include "config/host.h"
+#include "config/source.h"
 
 namespace skyig::config {
 
@@ -97,6 +98,8 @@ struct Output {
 struct Config {
     Daemon daemon;
     Host host;
+    /// At most kMaxSources.
+    std::vector<Source> sources;
     Start start;
     Air air;
     Sky sky;

@@ -1,10 +1,11 @@
 // The host: where it is heard, where it is answered, and what of CIGI is a matter of the site.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "config/source.h"
+#include "config/udp_address.h"
 
 namespace skyig::config {
 
@@ -16,28 +17,22 @@ struct CigiVersion {
     friend bool operator==(const CigiVersion&, const CigiVersion&) = default;
 };
 
-/// Dotted-quad IPv4 address and UDP port.
-struct UdpAddress {
-    std::string address = "127.0.0.1";
-    std::uint16_t port = 0;
-
-    friend bool operator==(const UdpAddress&, const UdpAddress&) = default;
-};
-
 /// "accept": any database number the host asks for counts as loaded; "none": 0 is reported always.
 enum class DatabasePolicy { kAccept, kNone };
 
+/// The source named "host": it may own everything, and every site has it unless it says otherwise.
 struct Host {
+    /// False: no CIGI host is listened for; other sources drive the picture.
+    bool enabled = true;
     UdpAddress listen{"127.0.0.1", 8004};
     /// Where answers go; empty ("sender" in the file): to the last valid sender.
     std::optional<UdpAddress> reply_to = UdpAddress{"127.0.0.1", 8005};
-    /// Dotted-quad addresses whose datagrams are read, at least one.
-    std::vector<std::string> allow{"127.0.0.1"};
+    /// Who may send, at least one; port 0 = any.
+    std::vector<UdpAddress> allow{{"127.0.0.1", 0}};
     /// Announced in Start of Frame until a host speaks; then the host's own version is used.
     CigiVersion cigi;
     DatabasePolicy database = DatabasePolicy::kAccept;
-    /// A host silent for so long is said to be lost, 0.1..3600.
-    double lost_after_s = 1.0;
+    Rights rights;
 };
 
 }  // namespace skyig::config

@@ -3,14 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 
 namespace skyig::config {
 namespace {
 
-constexpr std::array<std::string_view, 2> kVersionNames{"3.3", "4.0"};
-constexpr std::array<CigiVersion, 2> kVersions{CigiVersion{3, 3}, CigiVersion{4, 0}};
-constexpr std::array<std::string_view, 2> kDatabaseNames{"accept", "none"};
 constexpr std::array<std::string_view, 2> kToneNames{"hybrid", "linear"};
 constexpr std::array<std::string_view, 1> kOutputNames{"headless"};
 
@@ -25,17 +21,6 @@ TableReader open_table(TableReader& root, ErrorList& errors, std::string_view na
     return TableReader(errors, table, value->place, std::string(name));
 }
 
-bool parse_udp_address(std::string_view text, UdpAddress& out) {
-    const std::size_t colon = text.rfind(':');
-    if (colon == std::string_view::npos || !is_ipv4(text.substr(0, colon))) return false;
-    const std::string_view digits = text.substr(colon + 1);
-    std::uint16_t port = 0;
-    const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
-    if (fault != std::errc{} || end != digits.data() + digits.size()) return false;
-    out = {std::string(text.substr(0, colon)), port};
-    return true;
-}
-
 void read_version(TableReader& root) {
     int version = 1;
     const Value* value = root.integer("version", version, 0, 1'000'000);
@@ -47,60 +32,6 @@ void read_version(TableReader& root) {
 
 void read_daemon(TableReader table, Daemon& daemon) {
     table.number("rate_hz", daemon.rate_hz, {1.0, 240.0, "Hz"});
-    table.finish();
-}
-
-void read_allowed(TableReader& table, std::vector<std::string>& allow) {
-    const Value* value = table.any("allow");
-    if (value == nullptr) return;
-    const auto* list = std::get_if<Array>(&value->data);
-    if (list == nullptr || list->items.empty()) {
-        table.error(*value, "allow", "must be a list of at least one IPv4 address, such as [\"127.0.0.1\"]");
-        return;
-    }
-    allow.clear();
-    for (const Value& item : list->items) {
-        const auto* text = std::get_if<std::string>(&item.data);
-        if (text == nullptr || !is_ipv4(*text)) {
-            const std::string read =
-                text == nullptr ? std::string(type_name(item)) : fmt::format("\"{}\"", *text);
-            table.error(item, "allow",
-                        fmt::format("holds {}; it must hold IPv4 addresses such as \"127.0.0.1\"", read));
-            continue;
-        }
-        allow.push_back(*text);
-    }
-}
-
-void read_host(TableReader table, Host& host) {
-    std::string text;
-    if (const Value* value = table.text("listen", text);
-        value != nullptr && !parse_udp_address(text, host.listen)) {
-        table.error(
-            *value, "listen",
-            fmt::format("is \"{}\"; it must be an IPv4 address and a port, such as \"127.0.0.1:8004\"",
-                        text));
-    }
-    if (const Value* value = table.text("reply_to", text); value != nullptr) {
-        UdpAddress address;
-        if (text == "sender") {
-            host.reply_to.reset();
-        } else if (parse_udp_address(text, address) && address.port != 0) {
-            host.reply_to = address;
-        } else {
-            table.error(
-                *value, "reply_to",
-                fmt::format("is \"{}\"; it must be \"sender\", or an IPv4 address and a port from 1, such as "
-                            "\"127.0.0.1:8005\"",
-                            text));
-        }
-    }
-    read_allowed(table, host.allow);
-    std::size_t index = 0;
-    if (table.choice("cigi", index, kVersionNames) != nullptr) host.cigi = kVersions[index];
-    if (table.choice("database", index, kDatabaseNames) != nullptr)
-        host.database = static_cast<DatabasePolicy>(index);
-    table.number("lost_after_s", host.lost_after_s, {0.1, 3600.0, "s"});
     table.finish();
 }
 
@@ -207,7 +138,9 @@ Config read_config(const Table& document, ErrorList& errors) {
     TableReader root(errors, &document, {}, {});
     read_version(root);
     read_daemon(open_table(root, errors, "daemon"), config.daemon);
-    read_host(open_table(root, errors, "host"), config.host);
+    TableReader host = open_table(root, errors, "host");
+    read_host(host, config.host);
+    read_sources(root, errors, config.host, config.sources);
     read_start(open_table(root, errors, "start"), config.start);
     read_air(open_table(root, errors, "air"), config.air);
     read_sky(open_table(root, errors, "sky"), config.sky);

@@ -9,8 +9,18 @@ namespace skyig::config {
 /// Reads a whole document; whatever is wrong goes to `errors` and leaves its default in the result.
 [[nodiscard]] Config read_config(const Table& root, ErrorList& errors);
 
+/// Reads [host] and the [[source]] tables and checks them against one another.
+void read_host(TableReader& table, Host& host);
+void read_sources(TableReader& root, ErrorList& errors, const Host& host, std::vector<Source>& sources);
+
 /// Reads the [[channel]] tables and checks them against one another.
 void read_channels(TableReader& root, ErrorList& errors, std::vector<Channel>& channels);
+
+/// 1..32 of letters, digits, '-' and '_': fit for a part of a file's name.
+[[nodiscard]] bool is_short_name(std::string_view text) noexcept;
+
+/// "127.0.0.1:8004"; the port may be 0.
+[[nodiscard]] bool parse_udp_address(std::string_view text, UdpAddress& out);
 
 /// "127.0.0.1": four decimal numbers 0..255 without leading zeros.
 [[nodiscard]] bool is_ipv4(std::string_view text) noexcept;

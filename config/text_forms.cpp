@@ -41,6 +41,24 @@ bool is_ipv4(std::string_view text) noexcept {
     return true;
 }
 
+bool parse_udp_address(std::string_view text, UdpAddress& out) {
+    const std::size_t colon = text.rfind(':');
+    if (colon == std::string_view::npos || !is_ipv4(text.substr(0, colon))) return false;
+    const std::string_view digits = text.substr(colon + 1);
+    std::uint16_t port = 0;
+    const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+    if (fault != std::errc{} || end != digits.data() + digits.size()) return false;
+    out = {std::string(text.substr(0, colon)), port};
+    return true;
+}
+
+bool is_short_name(std::string_view name) noexcept {
+    return !name.empty() && name.size() <= 32 && std::all_of(name.begin(), name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+               c == '_';
+    });
+}
+
 bool is_valid(const UtcDateTime& time) noexcept {
     return time.year >= 1900 && time.year <= 2100 && time.month >= 1 && time.month <= 12 && time.day >= 1 &&
            time.day <= days_in_month(time.year, time.month) && time.hour >= 0 && time.hour <= 23 &&

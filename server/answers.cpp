@@ -35,7 +35,7 @@ std::span<const std::byte> Answers::open_frame(cigi::Session& session, std::int6
 
 std::optional<transport::Endpoint> Answers::destination(const world::Link& link) const noexcept {
     if (reply_to_) return reply_to_;
-    if (link.state == world::LinkState::kNever) return std::nullopt;
+    if (link.state == world::LinkState::kWaiting) return std::nullopt;
     return link.host;
 }
 

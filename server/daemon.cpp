@@ -40,8 +40,8 @@ T value_or_throw(protocol::Result<T, std::string> result) {
 UdpLink open_link(const config::Host& host) {
     transport::UdpOptions options;
     options.listen = {value_or_throw(transport::parse_ipv4(host.listen.address)), host.listen.port};
-    for (const std::string& address : host.allow)
-        options.allowed.push_back(value_or_throw(transport::parse_ipv4(address)));
+    for (const config::UdpAddress& sender : host.allow)
+        options.allowed.push_back(value_or_throw(transport::parse_ipv4(sender.address)));
     transport::UdpReceiver receiver = value_or_throw(transport::UdpReceiver::open(options));
     transport::UdpSender sender = value_or_throw(receiver.make_sender());
     return {std::move(receiver), std::move(sender)};

@@ -65,7 +65,7 @@ void FrameLoop::run_frame() {
 void FrameLoop::answer_host(const FramePacer::Slot& slot) {
     const std::span<const std::byte> message =
         answers_.open_frame(parts_.world.session(), slot.start_ns, slot.late);
-    const auto destination = answers_.destination(parts_.world.link());
+    const auto destination = answers_.destination(parts_.world.control_link());
     if (!destination) return;
     if (parts_.link.send(*destination, message)) {
         ++start_of_frame_sent_;
@@ -144,7 +144,7 @@ void FrameLoop::tell_dropped_datagrams() {
     const protocol::transport::UdpCounters now = parts_.link.counters();
     if (now.not_allowed > told_link_.not_allowed) {
         parts_.log.limited("sender not allowed", kRepeatAfter_s, Severity::kWarning,
-                           "{} datagrams dropped: their senders are not in host.allow",
+                           "{} datagrams dropped: their senders are not in allow",
                            now.not_allowed - told_link_.not_allowed);
     }
     if (now.ring_full > told_link_.ring_full) {
@@ -182,8 +182,8 @@ RunReport FrameLoop::report() const {
 }
 
 void FrameLoop::report_host(RunReport& report) const {
-    const world::Link& link = parts_.world.link();
-    if (link.state != world::LinkState::kNever) {
+    const world::Link link = parts_.world.control_link();
+    if (link.state != world::LinkState::kWaiting) {
         report.host = fmt::to_string(link.host);
         report.host_protocol = protocol_text(parts_.world.session());
     }

@@ -20,7 +20,7 @@ constexpr double kRepeatAfter_s = 10.0;
 class Inbox::Handler {
   public:
     Handler(Inbox& inbox, const transport::Endpoint& from) : inbox_(inbox), from_(from) {
-        inbox_.world_.begin_message(from);
+        inbox_.world_.begin_message(0, from);
     }
 
     template <class P>

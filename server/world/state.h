@@ -9,6 +9,7 @@
 
 #include "protocol/transport/endpoint.h"
 #include "server/ephemeris/sky_state.h"
+#include "server/world/authority.h"
 
 namespace skyig::server::world {
 
@@ -21,7 +22,7 @@ struct Ownship {
     double roll_deg = 0.0;
     /// False once the host has destroyed entity 0: the last pose stays, so that the picture stays.
     bool exists = true;
-    /// A host has placed it since start-up or Standby.
+    /// A source has placed it since start-up or Standby.
     bool placed_by_host = false;
 };
 
@@ -82,23 +83,21 @@ struct View {
     bool orthographic = false;
 };
 
-enum class LinkState : std::uint8_t { kNever, kAlive, kLost };
-
-/// The one host that is obeyed.
+/// A source and who speaks for it, as it stands now.
 struct Link {
-    LinkState state = LinkState::kNever;
-    /// Meaningless while kNever.
+    LinkState state = LinkState::kWaiting;
+    /// Of a UDP source; meaningless while kWaiting.
     protocol::transport::Endpoint host;
-    /// World time since the first step without an IG Control of its.
+    /// World time since it was last heard.
     double silent_s = 0.0;
-    bool heard_since_step = false;
-    /// How often a host was lost.
+    /// How often it was lost.
     std::uint64_t losses = 0;
 };
 
 /// What was refused or ignored by the world, each by its reason (what the decoder refuses is counted there).
 struct Counters {
-    std::uint64_t second_host = 0;       ///< messages of a host that is not the one obeyed
+    std::uint64_t second_host = 0;       ///< messages of a host that is not the one its source obeys
+    std::uint64_t not_in_charge = 0;     ///< data of which another source has the say
     std::uint64_t no_host = 0;           ///< packets of a source without any valid IG Control yet
     std::uint64_t standby_ignored = 0;   ///< packets other than IG Control in Standby
     std::uint64_t late_ignored = 0;      ///< packets of a message that newer ones have overtaken
@@ -127,6 +126,7 @@ struct NamedCounter {
 /// Every counter by name, for reports.
 inline constexpr std::array kCounterNames{
     NamedCounter{"second_host", &Counters::second_host},
+    NamedCounter{"not_in_charge", &Counters::not_in_charge},
     NamedCounter{"no_host", &Counters::no_host},
     NamedCounter{"standby_ignored", &Counters::standby_ignored},
     NamedCounter{"late_ignored", &Counters::late_ignored},

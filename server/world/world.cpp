@@ -79,6 +79,8 @@ bool take(double value, double min, double max, double& out) noexcept {
 World::World(const config::Config& config, const ephemeris::UtcClockTime& start_utc, Log& log)
     : config_(config),
       log_(log),
+      authority_(source_rules(config)),
+      peers_(authority_.size()),
       session_(session_options(config.host)),
       default_utc_(start_utc),
       clock_(start_utc, config.start.running),
@@ -87,52 +89,75 @@ World::World(const config::Config& config, const ephemeris::UtcClockTime& start_
       air_(configured_air(config.air)),
       views_(config.channels) {}
 
-void World::begin_message(const protocol::transport::Endpoint& from) noexcept {
+Link World::link(std::size_t source) const noexcept {
+    return {authority_.state(source), peers_[source].endpoint, authority_.silent_s(source),
+            authority_.losses(source)};
+}
+
+bool World::in_operation() const noexcept {
+    return mode() != cigi::IgMode::kStandby || !authority_.owned(config::Aspect::kControl);
+}
+
+void World::begin_message(std::size_t source, const protocol::transport::Endpoint& from) noexcept {
+    source_ = source;
     from_ = from;
     verdict_ = Verdict::kNoControl;
     // Should this message's IG Control be refused, its other packets count by what was agreed before.
-    if (link_.state == LinkState::kAlive && from == link_.host) {
-        verdict_ = mode() == cigi::IgMode::kStandby ? Verdict::kStandby : Verdict::kObeyed;
-    }
+    const LinkState state = authority_.state(source);
+    if ((state == LinkState::kLive || state == LinkState::kStale) && from == peers_[source].endpoint)
+        verdict_ = in_operation() ? Verdict::kObeyed : Verdict::kStandby;
 }
 
 void World::operator()(const cigi::IgControl& packet, const cigi::PacketInfo& info) {
-    if (!claim_link(info)) {
+    if (!claim_peer(info)) {
         verdict_ = Verdict::kOtherHost;
         ++counters_.second_host;
         say_second_host();
         return;
     }
+    if (authority_.claim(source_, config::Aspect::kControl)) {
+        take_control(packet, info);
+    } else {
+        verdict_ = in_operation() ? Verdict::kObeyed : Verdict::kStandby;
+    }
+}
+
+void World::take_control(const cigi::IgControl& packet, const cigi::PacketInfo& info) {
+    // Its frame numbers have nothing to do with those of whoever was in control before.
+    if (session_source_ != source_) session_.new_peer();
+    session_source_ = source_;
     const cigi::SessionEvents events = session_.receive(packet, info.version, info.order);
     verdict_ = events.obey ? Verdict::kObeyed : events.late ? Verdict::kLate : Verdict::kStandby;
     if (events.entered_standby) reset();
     note_events(events);
 }
 
-bool World::claim_link(const cigi::PacketInfo& info) {
-    if (link_.state == LinkState::kAlive && from_ != link_.host) return false;
-    if (link_.state == LinkState::kLost && from_ == link_.host) {
-        log_.limited("host back", kRepeatAfter_s, Severity::kNotice, "host {} is back after {:.1f} s",
-                     to_string(from_), link_.silent_s);
-    } else if (link_.state != LinkState::kAlive) {
-        log_.limited("host appeared", kRepeatAfter_s, Severity::kNotice, "host {} speaks CIGI {}, {}",
+bool World::claim_peer(const cigi::PacketInfo& info) {
+    Peer& peer = peers_[source_];
+    const LinkState before = authority_.state(source_);
+    const bool spoken_for = before == LinkState::kLive || before == LinkState::kStale;
+    if (spoken_for && from_ != peer.endpoint) return false;
+    const std::string& name = authority_.rule(source_).name;
+    if (before == LinkState::kLost && from_ == peer.endpoint) {
+        log_.limited("host back", kRepeatAfter_s, Severity::kNotice, "{} {} is back after {:.1f} s", name,
+                     to_string(from_), authority_.silent_s(source_));
+    } else if (!spoken_for) {
+        log_.limited("host appeared", kRepeatAfter_s, Severity::kNotice, "{} {} speaks CIGI {}, {}", name,
                      to_string(from_), version_name(info.version), order_name(info.order));
-        second_host_said_ = false;
+        peer.second_host_said = false;
     }
-    // Its frame numbers have nothing to do with those of whoever spoke before.
-    if (link_.state != LinkState::kAlive) session_.new_peer();
-    link_.state = LinkState::kAlive;
-    link_.host = from_;
-    link_.silent_s = 0.0;
-    link_.heard_since_step = true;
+    if (!spoken_for && session_source_ == source_) session_source_.reset();
+    authority_.heard(source_);
+    peer.endpoint = from_;
     return true;
 }
 
 void World::say_second_host() {
-    if (second_host_said_) return;
-    second_host_said_ = true;
-    log_.warning("second host {} ignored: {} is obeyed until it is silent for {} s", to_string(from_),
-                 to_string(link_.host), config_.host.lost_after_s);
+    Peer& peer = peers_[source_];
+    if (std::exchange(peer.second_host_said, true)) return;
+    const SourceRule& rule = authority_.rule(source_);
+    log_.warning("second {} {} ignored: {} is obeyed until it is silent for {} s", rule.name,
+                 to_string(from_), to_string(peer.endpoint), rule.rights.lost_after_s);
 }
 
 void World::note_events(const cigi::SessionEvents& events) {
@@ -148,10 +173,12 @@ void World::note_events(const cigi::SessionEvents& events) {
     }
 }
 
-bool World::obeys() noexcept {
+bool World::obeys(config::Aspect aspect) noexcept {
     switch (verdict_) {
         case Verdict::kObeyed:
-            return true;
+            if (authority_.claim(source_, aspect)) return true;
+            ++counters_.not_in_charge;
+            return false;
         case Verdict::kStandby:
             ++counters_.standby_ignored;
             return false;
@@ -179,7 +206,7 @@ void World::reset() {
 }
 
 void World::operator()(const cigi::EntityControl& packet, const cigi::PacketInfo& info) {
-    if (!obeys()) return;
+    if (!obeys(config::Aspect::kOwnship)) return;
     if (packet.entity_id != 0) {
         ++counters_.other_entity;
         return;
@@ -193,7 +220,7 @@ void World::operator()(const cigi::EntityControl& packet, const cigi::PacketInfo
 }
 
 void World::operator()(const cigi::EntityPosition& packet) {
-    if (!obeys()) return;
+    if (!obeys(config::Aspect::kOwnship)) return;
     if (packet.entity_id != 0) {
         ++counters_.other_entity;
         return;
@@ -228,7 +255,7 @@ void World::place_ownship(bool attached, const ephemeris::Geodetic& position, do
 }
 
 void World::operator()(const cigi::CelestialSphereControl& packet) {
-    if (!obeys()) return;
+    if (!obeys(config::Aspect::kTime)) return;
     celestial_ = {packet.sun_enable, packet.moon_enable, packet.star_enable,
                   static_cast<double>(packet.star_intensity) / 100.0};
     const ephemeris::UtcClockTime before = clock_.utc();
@@ -250,7 +277,7 @@ void World::note_clock_step(const ephemeris::UtcClockTime& before) {
 }
 
 void World::operator()(const cigi::AtmosphereControl& packet) {
-    if (!obeys()) return;
+    if (!obeys(config::Aspect::kWeather)) return;
     air_.model_enabled = packet.model_enable;
     air_.humidity_pct = packet.humidity;
     air_.visibility_m = static_cast<double>(packet.visibility);
@@ -264,19 +291,19 @@ void World::operator()(const cigi::AtmosphereControl& packet) {
 }
 
 void World::operator()(const cigi::WeatherControl& packet) {
-    if (obeys() && !weather_.set(packet)) ++counters_.weather_full;
+    if (obeys(config::Aspect::kWeather) && !weather_.set(packet)) ++counters_.weather_full;
 }
 
 void World::operator()(const cigi::EnvRegionControl& packet) {
-    if (obeys() && !weather_.set(packet)) ++counters_.weather_full;
+    if (obeys(config::Aspect::kWeather) && !weather_.set(packet)) ++counters_.weather_full;
 }
 
 void World::operator()(const cigi::ViewControl& packet) {
-    if (obeys()) note_view(views_.apply(packet), packet.view_id);
+    if (obeys(config::Aspect::kViews)) note_view(views_.apply(packet), packet.view_id);
 }
 
 void World::operator()(const cigi::ViewDefinition& packet) {
-    if (obeys()) note_view(views_.apply(packet), packet.view_id);
+    if (obeys(config::Aspect::kViews)) note_view(views_.apply(packet), packet.view_id);
 }
 
 void World::note_view(ViewResult result, std::uint16_t view_id) {
@@ -314,20 +341,17 @@ void World::advance(double step_s) {
     time_s_ += step_s;
     clock_.advance(step_s);
     if (!config_.start.utc) default_utc_.advance(step_s);
-    supervise_link(step_s);
+    supervise(step_s);
 }
 
-void World::supervise_link(double step_s) {
-    if (link_.state == LinkState::kNever) return;
-    // A long step after a message is a stall of ours, not a silence of the host.
-    if (std::exchange(link_.heard_since_step, false)) return;
-    link_.silent_s += step_s;
-    if (link_.state != LinkState::kAlive || link_.silent_s <= config_.host.lost_after_s) return;
-    link_.state = LinkState::kLost;
-    ++link_.losses;
-    log_.limited("host lost", kRepeatAfter_s, Severity::kWarning,
-                 "host {} lost: silent for {:.1f} s; the picture stays as it was, its clock goes on",
-                 to_string(link_.host), link_.silent_s);
+void World::supervise(double step_s) {
+    authority_.advance(step_s, [this](const LinkChange& change) {
+        if (change.to != LinkState::kLost) return;
+        const std::string& name = authority_.rule(change.source).name;
+        log_.limited("host lost", kRepeatAfter_s, Severity::kWarning,
+                     "{} {} lost: silent for {:.1f} s; the picture stays as it was, its clock goes on", name,
+                     to_string(peers_[change.source].endpoint), authority_.silent_s(change.source));
+    });
 }
 
 }  // namespace skyig::server::world

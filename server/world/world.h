@@ -2,12 +2,16 @@
 // otherwise, and moved on in time. No clock, no socket, no picture in here.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "config/config.h"
 #include "protocol/cigi/message.h"
 #include "protocol/cigi/session.h"
 #include "protocol/transport/endpoint.h"
 #include "server/ephemeris/time.h"
 #include "server/log.h"
+#include "server/world/authority.h"
 #include "server/world/state.h"
 #include "server/world/utc_clock.h"
 #include "server/world/views.h"
@@ -15,12 +19,13 @@
 
 namespace skyig::server::world {
 
-/// Give it each datagram as begin_message(from) and then the decoded packets, IG Control first: a World is a
-/// handler for protocol::cigi::decode_host_message(). Then advance() once a frame.
+/// Give it each datagram as begin_message(source, from) and then the decoded packets, IG Control first: a
+/// World is a handler for protocol::cigi::decode_host_message(). Then advance() once a frame.
 ///
-/// Authority: the first host whose IG Control is valid is obeyed; messages of any other address or port are
-/// counted and ignored until that host is lost (silent for `host.lost_after_s` of world time) or forgotten.
-/// Persistence: nothing times out. A lost host's world stands as it was and its clock runs on.
+/// Authority: each source obeys the first address whose IG Control is valid, until it is lost; what it says
+/// is taken where the settings give it the say (Authority). The mode is that of the source in control; the IG
+/// Control of any other source only opens its messages. Without a source that may control, all is obeyed.
+/// Persistence: nothing times out. A lost source's world stands as it was and its clock runs on.
 /// Standby: only the mode of IG Control is obeyed. Entering it brings back the configured world.
 /// Steady state allocates nothing. Not for several threads.
 class World {
@@ -29,8 +34,8 @@ class World {
     /// "now". Both references must outlive the world.
     World(const config::Config& config, const ephemeris::UtcClockTime& start_utc, Log& log);
 
-    /// The packets that follow come in one message from there.
-    void begin_message(const protocol::transport::Endpoint& from) noexcept;
+    /// The packets that follow come in one message of that source (0: the host) from there.
+    void begin_message(std::size_t source, const protocol::transport::Endpoint& from) noexcept;
 
     void operator()(const protocol::cigi::IgControl& packet, const protocol::cigi::PacketInfo& info);
     void operator()(const protocol::cigi::EntityControl& packet, const protocol::cigi::PacketInfo& info);
@@ -45,16 +50,23 @@ class World {
     /// Moves time on by `step_s` >= 0: clock, link supervision.
     void advance(double step_s);
 
-    /// Whether the current message came from the obeyed host (known after its IG Control).
+    /// Whether the current message came from the host in control (known after its IG Control).
     [[nodiscard]] bool from_obeyed_host() const noexcept {
-        return verdict_ != Verdict::kNoControl && verdict_ != Verdict::kOtherHost;
+        return verdict_ != Verdict::kNoControl && verdict_ != Verdict::kOtherHost &&
+               authority_.holder(config::Aspect::kControl) == source_;
     }
 
     [[nodiscard]] protocol::cigi::IgMode mode() const noexcept { return session_.mode(); }
-    /// The obeyed host's side of the link, fed with its messages only: makes each frame's Start of Frame.
+    /// The controlling host's side of the link, fed with its messages only: makes each frame's Start of
+    /// Frame.
     [[nodiscard]] protocol::cigi::Session& session() noexcept { return session_; }
     [[nodiscard]] const protocol::cigi::Session& session() const noexcept { return session_; }
-    [[nodiscard]] const Link& link() const noexcept { return link_; }
+    [[nodiscard]] Link link(std::size_t source = 0) const noexcept;
+    /// The source in control, or was last; the host's before the first.
+    [[nodiscard]] Link control_link() const noexcept {
+        return link(authority_.holder(config::Aspect::kControl).value_or(0));
+    }
+    [[nodiscard]] const Authority& authority() const noexcept { return authority_; }
     [[nodiscard]] const Ownship& ownship() const noexcept { return ownship_; }
     [[nodiscard]] const UtcClock& clock() const noexcept { return clock_; }
     [[nodiscard]] const CelestialSwitches& celestial() const noexcept { return celestial_; }
@@ -72,14 +84,23 @@ class World {
   private:
     enum class Verdict : std::uint8_t { kNoControl, kObeyed, kOtherHost, kStandby, kLate };
 
-    /// Whether packets of the current message count; if not, says so in the counters.
-    [[nodiscard]] bool obeys() noexcept;
-    /// False if another host has it.
-    [[nodiscard]] bool claim_link(const protocol::cigi::PacketInfo& info);
+    /// Who speaks for a source.
+    struct Peer {
+        protocol::transport::Endpoint endpoint;
+        bool second_host_said = false;
+    };
+
+    /// Whether what the current message says about `aspect` counts; if not, says so in the counters.
+    [[nodiscard]] bool obeys(config::Aspect aspect) noexcept;
+    /// False if another host of the same source has it.
+    [[nodiscard]] bool claim_peer(const protocol::cigi::PacketInfo& info);
     void say_second_host();
+    void take_control(const protocol::cigi::IgControl& packet, const protocol::cigi::PacketInfo& info);
+    /// No mode keeps anything out: the world is in Operate or nobody may say.
+    [[nodiscard]] bool in_operation() const noexcept;
     void note_events(const protocol::cigi::SessionEvents& events);
     void reset();
-    void supervise_link(double step_s);
+    void supervise(double step_s);
     void place_ownship(bool attached, const ephemeris::Geodetic& position, double yaw_deg, double pitch_deg,
                        double roll_deg);
     void note_view(ViewResult result, std::uint16_t view_id);
@@ -88,12 +109,15 @@ class World {
     const config::Config& config_;
     Log& log_;
 
+    Authority authority_;
+    std::vector<Peer> peers_;
+    std::size_t source_ = 0;
     protocol::transport::Endpoint from_;
     Verdict verdict_ = Verdict::kNoControl;
-    bool second_host_said_ = false;
 
     protocol::cigi::Session session_;
-    Link link_;
+    /// Whose frame numbers the session follows.
+    std::optional<std::size_t> session_source_;
     /// What the clock comes back to in Standby: the configured instant, or the system's clock as it goes on.
     ephemeris::UtcClockTime default_utc_;
     UtcClock clock_;

@@ -120,10 +120,10 @@ group_id = 3
     EXPECT_EQ(c.daemon.rate_hz, 30.0);
     EXPECT_EQ(c.host.listen, (UdpAddress{"0.0.0.0", 9000}));
     EXPECT_FALSE(c.host.reply_to);
-    EXPECT_THAT(c.host.allow, testing::ElementsAre("10.0.0.5", "10.0.0.6"));
+    EXPECT_THAT(c.host.allow, testing::ElementsAre(UdpAddress{"10.0.0.5", 0}, UdpAddress{"10.0.0.6", 0}));
     EXPECT_EQ(c.host.cigi, (CigiVersion{4, 0}));
     EXPECT_EQ(c.host.database, DatabasePolicy::kNone);
-    EXPECT_EQ(c.host.lost_after_s, 2.5);
+    EXPECT_EQ(c.host.rights.lost_after_s, 2.5);
     EXPECT_EQ(c.start.utc, (UtcDateTime{2024, 2, 29, 23, 59, 59.5}));
     EXPECT_FALSE(c.start.running);
     EXPECT_EQ(c.start.latitude_deg, -33.9);

@@ -330,7 +330,7 @@ TEST_F(FrameLoopTest, TellsOfDatagramsThatTheReceiverDropped) {
     EXPECT_EQ(count(loop_->report().rejects, "not_allowed"), 12U);
     EXPECT_EQ(count(loop_->report().rejects, "ring_full"), 3U);
     ASSERT_EQ(lines_.size(), 2U);
-    EXPECT_THAT(lines_[0], HasSubstr("12 datagrams dropped: their senders are not in host.allow"));
+    EXPECT_THAT(lines_[0], HasSubstr("12 datagrams dropped: their senders are not in allow"));
 }
 
 TEST_F(FrameLoopTest, HandsEveryNthFrameToTheImageWriter) {

@@ -59,7 +59,7 @@ class HostBench {
         std::array<std::byte, 2048> buffer{};
         protocol::cigi::MessageWriter writer(buffer, version, protocol::cigi::ByteOrder::kBig);
         (static_cast<void>(writer.add(packets)), ...);
-        world.begin_message(from);
+        world.begin_message(source, from);
         return protocol::cigi::decode_host_message(writer.bytes(), world, counters);
     }
 
@@ -86,6 +86,8 @@ class HostBench {
     protocol::cigi::Version version = protocol::cigi::Version::k33;
     protocol::cigi::IgMode mode = protocol::cigi::IgMode::kOperate;
     std::uint32_t frame = 0;
+    /// Whose messages these are.
+    std::size_t source = 0;
 };
 
 }  // namespace skyig::server::world

@@ -22,10 +22,10 @@ EntityControl ownship(double latitude_deg) {
 
 TEST(WorldLink, FirstValidHostIsObeyedAndSaidOnce) {
     HostBench bench;
-    EXPECT_EQ(bench.world.link().state, LinkState::kNever);
+    EXPECT_EQ(bench.world.link().state, LinkState::kWaiting);
     bench.send(kHostA, ownship(10.0));
     bench.send(kHostA, ownship(11.0));
-    EXPECT_EQ(bench.world.link().state, LinkState::kAlive);
+    EXPECT_EQ(bench.world.link().state, LinkState::kLive);
     EXPECT_EQ(bench.world.link().host, kHostA);
     EXPECT_EQ(bench.world.ownship().position.latitude_deg, 11.0);
     EXPECT_EQ(bench.lines_with("host 127.0.0.1:40001 speaks CIGI 3.3, big-endian"), 1U);
@@ -68,7 +68,7 @@ TEST(WorldLink, SilentHostIsLostOnceThePictureStaysAndTheClockRuns) {
     HostBench bench;
     bench.send(kHostA, ownship(10.0));
     bench.wait(0.9);
-    EXPECT_EQ(bench.world.link().state, LinkState::kAlive);
+    EXPECT_EQ(bench.world.link().state, LinkState::kStale);
     bench.wait(9.1);
     EXPECT_EQ(bench.world.link().state, LinkState::kLost);
     EXPECT_EQ(bench.world.link().losses, 1U);
@@ -78,7 +78,7 @@ TEST(WorldLink, SilentHostIsLostOnceThePictureStaysAndTheClockRuns) {
                 1e-6);
     bench.send(kHostA, ownship(12.0));
     EXPECT_EQ(bench.lines_with("is back after 10.0 s"), 1U);
-    EXPECT_EQ(bench.world.link().state, LinkState::kAlive);
+    EXPECT_EQ(bench.world.link().state, LinkState::kLive);
     EXPECT_EQ(bench.world.ownship().position.latitude_deg, 12.0);
 }
 
@@ -86,7 +86,7 @@ TEST(WorldLink, StallOfTheDaemonIsNoSilenceOfTheHost) {
     HostBench bench;
     bench.send(kHostA, ownship(10.0));
     bench.world.advance(5.0);
-    EXPECT_EQ(bench.world.link().state, LinkState::kAlive);
+    EXPECT_EQ(bench.world.link().state, LinkState::kLive);
     bench.world.advance(1.5);
     EXPECT_EQ(bench.world.link().state, LinkState::kLost);
 }
@@ -106,13 +106,13 @@ TEST(WorldLink, GarbageNeitherClaimsNorKeepsTheLink) {
     HostBench bench;
     std::array<std::byte, 40> garbage{};
     garbage.fill(std::byte{0x5A});
-    bench.world.begin_message(kHostB);
+    bench.world.begin_message(0, kHostB);
     EXPECT_FALSE(protocol::cigi::decode_host_message(garbage, bench.world, bench.counters).accepted);
-    EXPECT_EQ(bench.world.link().state, LinkState::kNever);
+    EXPECT_EQ(bench.world.link().state, LinkState::kWaiting);
     bench.send(kHostA, ownship(10.0));
     EXPECT_EQ(bench.world.link().host, kHostA);
     for (int i = 0; i < 20; ++i) {
-        bench.world.begin_message(kHostA);
+        bench.world.begin_message(0, kHostA);
         (void)protocol::cigi::decode_host_message(garbage, bench.world, bench.counters);
         bench.wait(0.1);
     }
@@ -125,7 +125,7 @@ TEST(WorldLink, RefusedControlLeavesTheOtherPacketsOfTheObeyedHostOnly) {
     bad.ig_mode = IgMode::kOfflineMaintenance;  // a host may not ask for it: refused by the decoder
     bad.host_frame_number = 7;
     bench.send_as(kHostA, bad, ownship(10.0));
-    EXPECT_EQ(bench.world.link().state, LinkState::kNever);
+    EXPECT_EQ(bench.world.link().state, LinkState::kWaiting);
     EXPECT_EQ(bench.world.counters().no_host, 1U);
     EXPECT_FALSE(bench.world.ownship().placed_by_host);
     bench.send(kHostA, ownship(20.0));

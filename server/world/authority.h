@@ -1,0 +1,94 @@
+// Who of several sources has the say about what, and which of them are alive. Plain values and rules: no
+// clock, no socket.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/config.h"
+
+namespace skyig::server::world {
+
+enum class LinkState : std::uint8_t { kWaiting, kLive, kStale, kLost };
+
+inline constexpr std::array<std::string_view, 4> kLinkStateNames{"waiting", "live", "stale", "lost"};
+
+/// One source as the settings have it: the host first, then the [[source]] tables in their order.
+struct SourceRule {
+    std::string name;
+    config::SourceKind kind = config::SourceKind::kCigi;
+    config::Rights rights;
+};
+
+[[nodiscard]] std::vector<SourceRule> source_rules(const config::Config& config);
+
+/// What a step of time has changed about a source.
+struct LinkChange {
+    std::size_t source = 0;
+    LinkState from = LinkState::kWaiting;
+    LinkState to = LinkState::kWaiting;
+};
+
+/// An aspect is held by one source at a time: by the first that speaks of it, until one with a larger
+/// priority does, or until the holder is lost and another speaks. Ownship data also give way when they are
+/// stale; what is a state (time, weather, views, control) does not age while its source lives. Allocates at
+/// construction only.
+class Authority {
+  public:
+    explicit Authority(std::vector<SourceRule> rules);
+
+    /// The source has sent something valid. \return what changed, if anything did.
+    std::optional<LinkChange> heard(std::size_t source) noexcept;
+
+    /// The source speaks of the aspect now. \return whether it is to be obeyed.
+    [[nodiscard]] bool claim(std::size_t source, config::Aspect aspect) noexcept;
+
+    /// Moves time on by `step_s` >= 0; `tell(const LinkChange&)` hears of sources that fell silent.
+    template <class Tell>
+    void advance(double step_s, Tell&& tell) {
+        for (std::size_t source = 0; source < links_.size(); ++source) {
+            if (const auto change = age(source, step_s)) tell(*change);
+        }
+    }
+
+    [[nodiscard]] std::size_t size() const noexcept { return rules_.size(); }
+    [[nodiscard]] const SourceRule& rule(std::size_t source) const noexcept { return rules_[source]; }
+    [[nodiscard]] LinkState state(std::size_t source) const noexcept { return links_[source].state; }
+    /// World time since it was last heard.
+    [[nodiscard]] double silent_s(std::size_t source) const noexcept { return links_[source].silent_s; }
+    /// How often it was lost.
+    [[nodiscard]] std::uint64_t losses(std::size_t source) const noexcept { return links_[source].losses; }
+    [[nodiscard]] std::optional<std::size_t> holder(config::Aspect aspect) const noexcept {
+        return holds_[static_cast<std::size_t>(aspect)].source;
+    }
+    /// Some source may own the aspect at all.
+    [[nodiscard]] bool owned(config::Aspect aspect) const noexcept;
+
+  private:
+    struct LinkAge {
+        LinkState state = LinkState::kWaiting;
+        double silent_s = 0.0;
+        bool heard_since_step = false;
+        std::uint64_t losses = 0;
+    };
+    struct Hold {
+        std::optional<std::size_t> source;
+        /// Since the holder last spoke of it.
+        double silent_s = 0.0;
+        bool heard_since_step = false;
+    };
+
+    std::optional<LinkChange> age(std::size_t source, double step_s) noexcept;
+    [[nodiscard]] bool gives_way(const Hold& hold, config::Aspect aspect, std::size_t to) const noexcept;
+
+    std::vector<SourceRule> rules_;
+    std::vector<LinkAge> links_;
+    std::array<Hold, config::kAspectCount> holds_{};
+};
+
+}  // namespace skyig::server::world
