@@ -14,7 +14,7 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kVerbs{"host", "shot"};
+constexpr std::array<std::string_view, 3> kVerbs{"host", "shot", "bench"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -125,6 +125,30 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     app.add_flag("--json", options.json, "tell the results as JSON");
 }
 
+void add_bench(CLI::App& app, BenchOptions& options) {
+    CLI::Option_group* what = app.add_option_group("what to do", "one of these");
+    CLI::Option* family =
+        what->add_option("family", options.family, "measure every model of this family")->type_name("FAMILY");
+    what->add_flag("--list", options.list, "tell the families");
+    what->add_option("--render", options.render_folder,
+                     "turn the folder's JSON files into pages and plots beside them")
+        ->type_name("DIR");
+    what->require_option(1);
+    app.add_option("--truth", options.truth_folder,
+                   "truth tables, one folder a topic (tests/data of the directory it is run in)")
+        ->type_name("DIR");
+    app.add_option("--rounds", options.rounds, "rounds of timing (101)")->check(CLI::Range(1, 100'000));
+    app.add_option("--instructions", options.instructions_path,
+                   "counted instructions to tell beside the times: family,model,cost,instructions a line")
+        ->type_name("FILE");
+    app.add_option("--counted-calls", options.counted_calls,
+                   "measure nothing; call each work so often inside skyig_bench_counted_calls, which "
+                   "callgrind can count, and tell them in order")
+        ->check(CLI::Range(1, 1'000'000))
+        ->needs(family);
+    app.add_flag("--json", options.json, "tell the results as JSON");
+}
+
 /// The first word that is no option, when it is no verb either.
 const char* unknown_verb(int argc, const char* const* argv) {
     if (argc < 2 || argv[1][0] == '-') return nullptr;
@@ -150,20 +174,24 @@ Invocation read_command_line(int argc, const char* const* argv) {
         "Exit status: 0 done, 1 the work failed, 2 wrong usage. skyig VERB --help tells a verb's options.");
     HostOptions host;
     ShotOptions shot;
+    BenchOptions bench;
     std::string order = "little";
     CLI::App* host_verb =
         app.add_subcommand("host", "fly a recorded flight at a daemon and tell what it answers");
     CLI::App* shot_verb = app.add_subcommand("shot", "draw one still without a network");
+    CLI::App* bench_verb = app.add_subcommand("bench", "measure error and cost of every model of a family");
     add_host(*host_verb, host, order);
     add_shot(*shot_verb, shot);
+    add_bench(*bench_verb, bench);
     try {
         app.parse(argc, argv);
         host.big_endian = order == "big";
         if (host_verb->parsed()) invocation.options = host;
         if (shot_verb->parsed()) invocation.options = shot;
+        if (bench_verb->parsed()) invocation.options = bench;
     } catch (const CLI::CallForHelp&) {
-        const CLI::App* asked = host_verb->parsed() ? host_verb : shot_verb->parsed() ? shot_verb : &app;
-        invocation.output = asked->help();
+        const std::vector<CLI::App*> asked = app.get_subcommands();
+        invocation.output = (asked.empty() ? &app : asked.front())->help();
     } catch (const CLI::CallForVersion& version) {
         invocation.output = fmt::format("{}\n", version.what());
     } catch (const CLI::ParseError& error) {

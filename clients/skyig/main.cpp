@@ -4,6 +4,7 @@
 #include <exception>
 #include <variant>
 
+#include "clients/skyig/bench.h"
 #include "clients/skyig/host.h"
 #include "clients/skyig/options.h"
 #include "clients/skyig/shot.h"
@@ -17,6 +18,7 @@ int run(int argc, char** argv) {
     fmt::print(stderr, "{}", invocation.error);
     if (const auto* host = std::get_if<HostOptions>(&invocation.options)) return run_host(*host);
     if (const auto* shot = std::get_if<ShotOptions>(&invocation.options)) return run_shot(*shot);
+    if (const auto* bench = std::get_if<BenchOptions>(&invocation.options)) return run_bench(*bench);
     return invocation.exit_status;
 }
 

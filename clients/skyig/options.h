@@ -54,9 +54,25 @@ struct ShotOptions {
     bool json = false;
 };
 
+/// skyig bench: error and cost of every model of a family; exactly one of family, list and render_folder.
+struct BenchOptions {
+    std::string family;
+    bool list = false;
+    /// Turn the JSON files of this folder into pages and plots.
+    std::string render_folder;
+    /// One folder a topic under it.
+    std::string truth_folder = "tests/data";
+    int rounds = 101;
+    /// Lines of family,model,cost,instructions; empty = none were counted.
+    std::string instructions_path;
+    /// Only make so many calls of each work, for an instruction counter.
+    std::optional<std::uint64_t> counted_calls;
+    bool json = false;
+};
+
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
-    std::variant<std::monostate, HostOptions, ShotOptions> options;
+    std::variant<std::monostate, HostOptions, ShotOptions, BenchOptions> options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)
     std::string error;   ///< for stderr, one line

@@ -1,0 +1,257 @@
+#include "clients/bench/plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+namespace skyig::clients::bench {
+
+namespace {
+
+constexpr double kWidth_px = 820.0;
+constexpr double kHeight_px = 480.0;
+constexpr double kLeft_px = 76.0;
+constexpr double kRight_px = 648.0;
+constexpr double kTop_px = 52.0;
+constexpr double kBottom_px = 420.0;
+constexpr double kLegend_px = 672.0;
+constexpr double kLegendLine_px = 20.0;
+
+// Told apart also by most colour-blind eyes, and dark and light enough for both backgrounds.
+constexpr std::array<std::string_view, 8> kColours{"#d9730d", "#2f81f7", "#1a9a6c", "#c74fa0",
+                                                   "#a98600", "#8a63d2", "#d1495b", "#7d8590"};
+
+constexpr std::string_view kStyle =
+    "<style>"
+    "text{font:13px system-ui,'DejaVu Sans',sans-serif;fill:#1f2328}"
+    ".paper{fill:#ffffff}.grid{stroke:#d8dee4;stroke-width:1}.frame{stroke:#6e7781;fill:none}"
+    ".title{font-weight:600;font-size:15px}.shape{fill:#1f2328}"
+    "@media(prefers-color-scheme:dark){text{fill:#e6edf3}.paper{fill:#0d1117}.grid{stroke:#30363d}"
+    ".frame{stroke:#8b949e}.shape{fill:#e6edf3}}"
+    "</style>\n";
+
+struct Point {
+    std::size_t series = 0;
+    std::size_t model = 0;
+    double cost = 0.0;
+    double error = 0.0;
+};
+
+/// Powers of ten that hold all values.
+class LogAxis {
+  public:
+    LogAxis(double least, double most, double from_px, double to_px)
+        : first_(static_cast<int>(std::floor(std::log10(least)))),
+          last_(static_cast<int>(std::ceil(std::log10(most)))),
+          from_px_(from_px),
+          to_px_(to_px) {
+        if (last_ == first_) ++last_;
+    }
+
+    [[nodiscard]] int first() const { return first_; }
+    [[nodiscard]] int last() const { return last_; }
+    [[nodiscard]] double at_px(double value) const {
+        return std::lerp(from_px_, to_px_, (std::log10(value) - first_) / (last_ - first_));
+    }
+
+  private:
+    int first_;
+    int last_;
+    double from_px_;
+    double to_px_;
+};
+
+struct Frame {
+    LogAxis cost;
+    LogAxis error;
+};
+
+std::string power_of_ten(int power) {
+    return power >= -4 && power <= 5 ? fmt::format("{:g}", std::pow(10.0, power))
+                                     : fmt::format("1e{}", power);
+}
+
+std::vector<Point> points_of(const Report& report, const Plot& plot) {
+    std::vector<Point> points;
+    for (std::size_t s = 0; s < plot.series.size(); ++s) {
+        std::vector<Point> line;
+        for (std::size_t m = 0; m < report.models.size(); ++m) {
+            const ErrorEntry* error = find_error(report.models[m], plot.series[s].quantity, plot.cases);
+            const CostEntry* cost = find_cost(report.models[m], plot.series[s].cost);
+            if (!error || !cost || !(error->figures.max > 0.0) || !(cost->ns.median > 0.0)) continue;
+            line.push_back({s, m, cost->ns.median, error->figures.max});
+        }
+        std::sort(line.begin(), line.end(), [](const Point& a, const Point& b) { return a.cost < b.cost; });
+        points.insert(points.end(), line.begin(), line.end());
+    }
+    return points;
+}
+
+Frame frame_of(const std::vector<Point>& points) {
+    const auto by_cost = [](const Point& a, const Point& b) { return a.cost < b.cost; };
+    const auto by_error = [](const Point& a, const Point& b) { return a.error < b.error; };
+    const auto cost = std::minmax_element(points.begin(), points.end(), by_cost);
+    const auto error = std::minmax_element(points.begin(), points.end(), by_error);
+    return {LogAxis(cost.first->cost, cost.second->cost, kLeft_px, kRight_px),
+            LogAxis(error.first->error, error.second->error, kBottom_px, kTop_px)};
+}
+
+void put_text(std::string& svg, double x_px, double y_px, std::string_view attributes,
+              std::string_view text) {
+    fmt::format_to(std::back_inserter(svg), "<text x=\"{:.1f}\" y=\"{:.1f}\"{}>{}</text>\n", x_px, y_px,
+                   attributes, xml_escaped(text));
+}
+
+void put_line(std::string& svg, double x1_px, double y1_px, double x2_px, double y2_px) {
+    fmt::format_to(std::back_inserter(svg),
+                   "<line class=\"grid\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n", x1_px,
+                   y1_px, x2_px, y2_px);
+}
+
+void put_grid(std::string& svg, const Frame& frame) {
+    for (int power = frame.cost.first(); power <= frame.cost.last(); ++power) {
+        const double x_px = frame.cost.at_px(std::pow(10.0, power));
+        put_line(svg, x_px, kTop_px, x_px, kBottom_px);
+        put_text(svg, x_px, kBottom_px + 20.0, " text-anchor=\"middle\"", power_of_ten(power));
+    }
+    for (int power = frame.error.first(); power <= frame.error.last(); ++power) {
+        const double y_px = frame.error.at_px(std::pow(10.0, power));
+        put_line(svg, kLeft_px, y_px, kRight_px, y_px);
+        put_text(svg, kLeft_px - 8.0, y_px + 4.5, " text-anchor=\"end\"", power_of_ten(power));
+    }
+    fmt::format_to(std::back_inserter(svg),
+                   "<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n", kLeft_px,
+                   kTop_px, kRight_px - kLeft_px, kBottom_px - kTop_px);
+}
+
+/// The model's shape round (x, y); `attributes` colour it.
+std::string shape(std::size_t model, double x, double y, std::string_view attributes) {
+    constexpr double r = 5.5;
+    constexpr double d = 4.8;
+    switch (model % 5) {
+        case 0:
+            return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"{}/>", x, y, r, attributes);
+        case 1:
+            return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\"{}/>", x - d, y - d,
+                               2 * d, 2 * d, attributes);
+        case 2:
+            return fmt::format("<path d=\"M{:.1f} {:.1f}l{} {}h{}z\"{}/>", x, y - r - 1.0, r + 0.8, 2 * r,
+                               -2 * (r + 0.8), attributes);
+        case 3:
+            return fmt::format("<path d=\"M{:.1f} {:.1f}l{} {}l{} {}l{} {}z\"{}/>", x, y - r - 1.5, r + 1.5,
+                               r + 1.5, -r - 1.5, r + 1.5, -r - 1.5, -r - 1.5, attributes);
+        default:
+            return fmt::format("<path d=\"M{:.1f} {:.1f}l{} {}h{}z\"{}/>", x, y + r + 1.0, r + 0.8, -2 * r,
+                               -2 * (r + 0.8), attributes);
+    }
+}
+
+void put_points(std::string& svg, const Report& report, const Plot& plot, const std::vector<Point>& points,
+                const Frame& frame) {
+    const auto out = std::back_inserter(svg);
+    for (std::size_t s = 0; s < plot.series.size(); ++s) {
+        const std::string_view colour = kColours[s % kColours.size()];
+        std::string line;
+        std::string shapes;
+        for (const Point& point : points) {
+            if (point.series != s) continue;
+            const double x = frame.cost.at_px(point.cost);
+            const double y = frame.error.at_px(point.error);
+            line += fmt::format("{:.1f},{:.1f} ", x, y);
+            shapes +=
+                fmt::format("<g><title>{}</title>{}</g>\n",
+                            xml_escaped(fmt::format("{}, {}: {} ns, {}", report.models[point.model].name,
+                                                    plot.series[s].label, short_number(point.cost),
+                                                    short_number(point.error))),
+                            shape(point.model, x, y, fmt::format(" fill=\"{}\"", colour)));
+        }
+        if (line.empty()) continue;
+        line.pop_back();
+        fmt::format_to(out,
+                       "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\" "
+                       "stroke-opacity=\"0.6\"/>\n{}",
+                       line, colour, shapes);
+    }
+}
+
+void put_legend(std::string& svg, const Report& report, const Plot& plot) {
+    double y_px = kTop_px + 10.0;
+    for (std::size_t s = 0; s < plot.series.size(); ++s, y_px += kLegendLine_px) {
+        fmt::format_to(std::back_inserter(svg),
+                       "<line x1=\"{0}\" y1=\"{2:.1f}\" x2=\"{1}\" y2=\"{2:.1f}\" stroke=\"{3}\" "
+                       "stroke-width=\"4\"/>\n",
+                       kLegend_px, kLegend_px + 16.0, y_px, kColours[s % kColours.size()]);
+        put_text(svg, kLegend_px + 24.0, y_px + 4.5, "", plot.series[s].label);
+    }
+    y_px += kLegendLine_px;
+    for (std::size_t m = 0; m < report.models.size(); ++m, y_px += kLegendLine_px) {
+        svg += shape(m, kLegend_px + 8.0, y_px, " class=\"shape\"") + '\n';
+        put_text(svg, kLegend_px + 24.0, y_px + 4.5, "", report.models[m].name);
+    }
+}
+
+/// The unit of the first error that the plot shows.
+std::string unit_of(const Report& report, const Plot& plot) {
+    for (const ModelEntry& model : report.models) {
+        for (const PlotSeries& series : plot.series) {
+            if (const ErrorEntry* error = find_error(model, series.quantity, plot.cases)) return error->unit;
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string xml_escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                out += c;
+        }
+    }
+    return out;
+}
+
+std::string to_svg(const Report& report, const Plot& plot) {
+    std::string svg = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+        "role=\"img\" aria-label=\"{2}\">\n{3}<rect class=\"paper\" width=\"{0}\" height=\"{1}\" "
+        "rx=\"6\"/>\n",
+        kWidth_px, kHeight_px, xml_escaped(plot.title), kStyle);
+    put_text(svg, kLeft_px, 30.0, " class=\"title\"", fmt::format("{}, {}", plot.title, plot.cases));
+    const std::vector<Point> points = points_of(report, plot);
+    if (points.empty()) {
+        put_text(svg, kLeft_px, kTop_px + 30.0, "", "nothing to draw: every error is zero or unknown");
+        return svg + "</svg>\n";
+    }
+    const Frame frame = frame_of(points);
+    put_grid(svg, frame);
+    put_text(svg, 0.5 * (kLeft_px + kRight_px), kBottom_px + 44.0, " text-anchor=\"middle\"",
+             "cost of a call, ns");
+    put_text(svg, 0.0, 0.0,
+             fmt::format(" text-anchor=\"middle\" transform=\"translate(20 {}) rotate(-90)\"",
+                         0.5 * (kTop_px + kBottom_px)),
+             fmt::format("largest error, {}", unit_of(report, plot)));
+    put_points(svg, report, plot, points, frame);
+    put_legend(svg, report, plot);
+    return svg + "</svg>\n";
+}
+
+}  // namespace skyig::clients::bench

@@ -1,0 +1,94 @@
+// What is known about a family of models: one shape for all families, kept as JSON (docs/accuracy/schema.md).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clients/bench/errors.h"
+#include "clients/bench/timing.h"
+
+namespace skyig::clients::bench {
+
+/// How far a model is from the truth in one quantity over one set of cases.
+struct ErrorEntry {
+    std::string quantity;
+    std::string cases;
+    std::string unit;
+    ErrorFigures figures;
+};
+
+/// What one call of one of a model's works costs.
+struct CostEntry {
+    std::string name;
+    Quartiles ns;
+    /// As multiples of the report's floor.
+    Quartiles floors;
+    std::optional<double> instructions;
+};
+
+struct ModelEntry {
+    std::string name;
+    std::string what;
+    std::vector<ErrorEntry> errors;
+    std::vector<CostEntry> costs;
+};
+
+/// A quantity whose error is drawn against a cost, one point a model.
+struct PlotSeries {
+    std::string label;
+    std::string quantity;
+    std::string cost;
+};
+
+/// A picture of the largest errors over `cases` against costs.
+struct Plot {
+    std::string name;  ///< part of the file's name
+    std::string title;
+    std::string cases;
+    std::vector<PlotSeries> series;
+};
+
+/// The one error and the one cost that stand for a model in the table over all families.
+struct Headline {
+    std::string quantity;
+    std::string cases;
+    std::string cost;
+};
+
+struct Report {
+    std::string family;
+    std::string title;
+    /// What was computed, and what held against.
+    std::string cases;
+    std::string truth;
+    /// What each named cost is.
+    std::string costs;
+    std::string floor;
+    Quartiles floor_ns;
+    int rounds = 0;
+    std::string machine;
+    std::vector<ModelEntry> models;
+    std::vector<Plot> plots;
+    Headline headline;
+};
+
+/// Nothing where the model has no such entry.
+[[nodiscard]] const ErrorEntry* find_error(const ModelEntry& model, std::string_view quantity,
+                                           std::string_view cases) noexcept;
+[[nodiscard]] const CostEntry* find_cost(const ModelEntry& model, std::string_view name) noexcept;
+
+/// Figures are rounded to four significant digits.
+[[nodiscard]] std::string to_json(const Report& report);
+/// Throws std::runtime_error that says what is missing or of another shape.
+[[nodiscard]] Report report_from_json(std::string_view text);
+
+/// Tables for people.
+[[nodiscard]] std::string to_text(const Report& report);
+
+/// Four significant digits, the shortest form: "0.03125", "1234", "1.2e+06".
+[[nodiscard]] std::string short_number(double value);
+
+}  // namespace skyig::clients::bench

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "clients/bench/family.h"
+
+namespace skyig::clients::bench {
+namespace {
+
+constexpr const char* kTruth = SKYIG_TEST_DATA;
+
+TEST(Families, HaveNamesOfTheirOwnAndAreFoundByThem) {
+    std::set<std::string_view> names;
+    for (const Family& family : families()) {
+        EXPECT_TRUE(names.insert(family.name).second) << family.name;
+        EXPECT_EQ(find_family(family.name), &family);
+    }
+    EXPECT_EQ(find_family("nonsense"), nullptr);
+}
+
+/// What the pages need: every model has the headline's error and cost, every plot something to draw.
+void expect_complete(const Report& report) {
+    ASSERT_FALSE(report.models.empty());
+    for (const ModelEntry& model : report.models) {
+        EXPECT_FALSE(model.what.empty()) << model.name;
+        const ErrorEntry* error = find_error(model, report.headline.quantity, report.headline.cases);
+        ASSERT_NE(error, nullptr) << model.name;
+        EXPECT_GT(error->figures.count, 0U);
+        EXPECT_NE(find_cost(model, report.headline.cost), nullptr) << model.name;
+        for (const CostEntry& cost : model.costs) {
+            EXPECT_GT(cost.ns.median, 0.0) << model.name << ' ' << cost.name;
+            EXPECT_GT(cost.floors.median, 0.0) << model.name << ' ' << cost.name;
+            EXPECT_EQ(cost.instructions, std::optional<double>(7.0)) << model.name << ' ' << cost.name;
+        }
+        for (const Plot& plot : report.plots) {
+            for (const PlotSeries& series : plot.series) {
+                EXPECT_NE(find_error(model, series.quantity, plot.cases), nullptr) << series.quantity;
+                EXPECT_NE(find_cost(model, series.cost), nullptr) << series.cost;
+            }
+        }
+    }
+}
+
+TEST(Families, EachIsMeasuredWhole) {
+    const server::SystemClock clock;
+    for (const Family& family : families()) {
+        std::vector<InstructionCount> counts;
+        for (const Contender& contender : family.contenders())
+            counts.push_back({std::string(family.name), contender.model, contender.cost, 7.0});
+        const Report report = measure(family, kTruth, clock, {2, 2'000.0}, counts);
+        SCOPED_TRACE(report.family);
+        EXPECT_EQ(report.family, family.name);
+        expect_complete(report);
+        const std::string json = to_json(report);
+        EXPECT_EQ(to_json(report_from_json(json)), json);
+        std::printf("%s", to_text(report).c_str());
+    }
+}
+
+TEST(Families, WireMessagesSurviveReadingAndWriting) {
+    for (const ModelEntry& model : find_family("wire")->measure_errors(kTruth).models) {
+        EXPECT_EQ(model.errors.at(0).figures.max, 0.0) << model.name;
+        EXPECT_EQ(model.errors.at(0).figures.count, 64U);
+    }
+}
+
+TEST(Families, CountedCallsAreToldInTheOrderTheyAreMade) {
+    const Family& family = *find_family("wire");
+    const std::string lines = make_counted_calls(family, 3);
+    EXPECT_EQ(lines,
+              "wire,cigi33,decode,3\nwire,cigi33-swapped,decode,3\nwire,cigi40,decode,3\n"
+              "wire,cigi40-swapped,decode,3\n");
+}
+
+TEST(InstructionCounts, AreReadALineEach) {
+    const auto counts =
+        read_instruction_counts("# counted\nwire,cigi33,decode,301.5\n\nwire,cigi40,decode,12");
+    ASSERT_EQ(counts.size(), 2U);
+    EXPECT_EQ(counts[0].model, "cigi33");
+    EXPECT_EQ(counts[0].instructions, 301.5);
+    EXPECT_EQ(counts[1].cost, "decode");
+}
+
+TEST(InstructionCounts, ABadLineIsNamed) {
+    for (const char* bad : {"a,b,c", "a,b,c,", "a,b,c,x", "a,b,c,1,2", "a,b,c,-1", "a,b,c,nan"}) {
+        try {
+            (void)read_instruction_counts(std::string("#\n") + bad);
+            ADD_FAILURE() << bad;
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find("line 2"), std::string::npos) << error.what();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace skyig::clients::bench
