@@ -1,6 +1,9 @@
 // The theories of motion that a model of the sky is put together from. Pure functions of TT; no state, no
-// allocation, thread-safe. Axes ICRS (GCRS for the Moon), kilometres, km/s. TT stands for TDB (2 ms, 0.001
-// arcsec of the Moon). Meant for 1900-2100; finite for every finite date.
+// allocation, thread-safe. Places are geometric (no light time, no aberration), axes ICRS (GCRS for the
+// Moon), kilometres, km/s. TT stands for TDB (2 ms, 0.001 arcsec of the Moon). Meant for 1900-2100, where the
+// errors below are the greatest found; dates over 5000 years from J2000 are taken as that far, so every
+// finite date gives finite numbers; not-a-number gives not-a-number. Costs: one core of a 2.3 GHz Xeon, place
+// and velocity.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -21,23 +24,33 @@ struct EarthMotion {
     PositionVelocity barycentric;
 };
 
-/// VSOP2000 as fitted by ERFA (eraEpv00).
+/// VSOP2000 as fitted by ERFA (eraEpv00). 0.02 arcsec; 40 us, more than all the others together.
 [[nodiscard]] EarthMotion earth_epv00(const JulianDate& tt) noexcept;
-/// Low-precision Sun of the Astronomical Almanac, moved to ICRS; the barycentre is taken to be the Sun.
+/// Low-precision Sun of the Astronomical Almanac, moved to ICRS by the precession of IAU 2006; the aberration
+/// that its longitude contains is taken out. The barycentre is taken to be the Sun. 50 arcsec; 0.3 us.
 [[nodiscard]] EarthMotion earth_almanac(const JulianDate& tt) noexcept;
 
 /// Geocentric Moon: ELP/MPP02 (Chapront & Francou 2003), terms of at least 0.01 arcsec, fitted to DE405.
+/// 0.4 arcsec, 0.35 km; 8 us.
 [[nodiscard]] PositionVelocity moon_elpmpp02(const JulianDate& tt) noexcept;
-/// Geocentric Moon: Meeus ch. 47 as in ERFA (eraMoon98).
+/// Geocentric Moon: Meeus ch. 47 as in ERFA (eraMoon98). 11 arcsec; 5 us.
 [[nodiscard]] PositionVelocity moon_moon98(const JulianDate& tt) noexcept;
-/// Geocentric Moon: low-precision formula of the Astronomical Almanac.
+/// Geocentric Moon: low-precision formula of the Astronomical Almanac, moved to ICRS by the precession of IAU
+/// 2006. 1300 arcsec; 0.5 us.
 [[nodiscard]] PositionVelocity moon_almanac(const JulianDate& tt) noexcept;
 
-/// Heliocentric planet, kMercury .. kSaturn: VSOP87B (Bretagnon & Francou 1988), terms of at least 1e-7 rad.
+// Heliocentric planets, kMercury .. kSaturn (Jupiter and Saturn with their moons); zero for Sun and Moon.
+// Errors are angles at the Sun; from the Earth they are larger by the ratio of the distances, up to 2.6 for
+// Venus and 4 for Mars.
+
+/// VSOP87B (Bretagnon & Francou 1988), terms of at least 1e-7 rad. 0.4 arcsec against the whole theory; 1 us
+/// (Venus) to 5 us (Saturn).
 [[nodiscard]] PositionVelocity planet_vsop87(Body planet, const JulianDate& tt) noexcept;
-/// Heliocentric planet by mean elements with their main perturbations (Simon et al. 1994, eraPlan94).
+/// Mean elements with their main perturbations (Simon et al. 1994, eraPlan94). Mercury to Saturn 4, 7, 26,
+/// 67, 88 arcsec; velocity within 0.4 %; 0.4 us.
 [[nodiscard]] PositionVelocity planet_plan94(Body planet, const JulianDate& tt) noexcept;
-/// Heliocentric planet on a slowly turning Kepler ellipse (Standish, JPL approximate elements).
+/// A slowly turning Kepler ellipse (Standish, JPL approximate elements for 3000 BC - 3000 AD). Mercury to
+/// Saturn 27, 38, 182, 660, 1263 arcsec; 0.25 us.
 [[nodiscard]] PositionVelocity planet_elements(Body planet, const JulianDate& tt) noexcept;
 
 }  // namespace skyig::server::ephemeris::theory
