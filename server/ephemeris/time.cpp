@@ -10,11 +10,14 @@
 
 #include <fmt/format.h>
 
+#include "server/ephemeris/delta_t.h"
+
 namespace skyig::server::ephemeris {
 namespace {
 
 constexpr double kSecondsPerDay = 86400.0;
 constexpr double kJulianDateOfMjdZero = 2400000.5;
+constexpr double kJ2000 = 2451545.0;
 constexpr double kTtMinusTai_s = 32.184;
 
 constexpr std::int32_t kUnixEpochMjd = 40587;
@@ -105,6 +108,40 @@ bool take_seconds(std::string_view& text, double& second) noexcept {
     // Digits beyond the resolution of a double may add up to the next second, which the text does not mean.
     second = std::min(static_cast<double>(whole) + fraction, std::nextafter(whole + 1.0, 0.0));
     return true;
+}
+
+/// A moment of the two centuries that the sky is made for.
+struct ClampedUtc {
+    std::int32_t mjd = 0;
+    double second = 0.0;
+    bool outside = false;
+};
+
+ClampedUtc clamped(const UtcClockTime& utc) noexcept {
+    if (utc.mjd() < kFirstSkyMjd) return {kFirstSkyMjd, 0.0, true};
+    if (utc.mjd() > kLastSkyMjd) return {kLastSkyMjd, kSecondsPerDay, true};
+    return {utc.mjd(), utc.second_of_day(), false};
+}
+
+/// By TT, since UTC's seconds of the day start again after a leap second.
+double delta_t_at(std::int32_t mjd, double tt_second) noexcept {
+    constexpr double kMjdOf2000 = 51544.0;
+    constexpr double kDaysPerYear = 365.25;
+    return delta_t_s(2000.0 + (mjd - kMjdOf2000 + tt_second / kSecondsPerDay) / kDaysPerYear);
+}
+
+bool is_usable(const std::optional<double>& offset_s) noexcept {
+    constexpr double kMost_s = 3600.0;
+    return offset_s && std::abs(*offset_s) <= kMost_s;
+}
+
+double given_or(const std::optional<double>& offset_s, double known_s) noexcept {
+    return is_usable(offset_s) ? *offset_s : known_s;
+}
+
+double pole_or_zero(double angle_rad) noexcept {
+    constexpr double kMost_rad = 1e-4;
+    return std::abs(angle_rad) <= kMost_rad ? angle_rad : 0.0;
 }
 
 }  // namespace
@@ -204,51 +241,58 @@ std::string to_iso(const UtcClockTime& time, int decimals) {
     return fmt::format("{}.{:0{}.0f}Z", head, fraction, places);
 }
 
-double delta_t_s(double year) noexcept {
-    const auto polynomial = [](double t, const auto& coefficients) {
-        double sum = 0.0;
-        for (std::size_t i = coefficients.size(); i-- > 0;)
-            sum = sum * t + coefficients[i];
-        return sum;
-    };
-    constexpr std::array k1900{-2.79, 1.494119, -0.0598939, 0.0061966, -0.000197};
-    constexpr std::array k1920{21.20, 0.84493, -0.076100, 0.0020936};
-    constexpr std::array k1941{29.07, 0.407, -1.0 / 233.0, 1.0 / 2547.0};
-    constexpr std::array k1961{45.45, 1.067, -1.0 / 260.0, -1.0 / 718.0};
-    const double y = std::clamp(year, 1900.0, 1986.0);
-    if (y < 1920.0) return polynomial(y - 1900.0, k1900);
-    if (y < 1941.0) return polynomial(y - 1920.0, k1920);
-    if (y < 1961.0) return polynomial(y - 1950.0, k1941);
-    return polynomial(y - 1975.0, k1961);
+KnownOffsets known_offsets(const UtcClockTime& utc) noexcept {
+    constexpr double kTtMinusUtcIn1972_s = 10.0 + kTtMinusTai_s;
+    const ClampedUtc moment = clamped(utc);
+    KnownOffsets known;
+    if (moment.mjd < kFirstLeapSecondMjd) {
+        constexpr std::int32_t kRampMjd = kFirstLeapSecondMjd - 365;
+        const double ramp = std::max(0.0, (moment.mjd - kRampMjd + moment.second / kSecondsPerDay) / 365.0);
+        known.ut1_minus_utc_s =
+            ramp * (kTtMinusUtcIn1972_s - delta_t_at(kFirstLeapSecondMjd, kTtMinusUtcIn1972_s));
+        known.tt_minus_utc_s =
+            known.ut1_minus_utc_s + delta_t_at(moment.mjd, moment.second + kTtMinusUtcIn1972_s);
+        return known;
+    }
+    const TaiOffset offset = tai_offset(moment.mjd);
+    known.tt_minus_utc_s = offset.tai_minus_utc_s + kTtMinusTai_s;
+    known.ut1_minus_utc_s =
+        known.tt_minus_utc_s - delta_t_at(moment.mjd, moment.second + known.tt_minus_utc_s);
+    known.leap_seconds_assumed = offset.assumed;
+    return known;
 }
 
-Instant make_instant(const UtcClockTime& utc, std::optional<double> dut1_s) noexcept {
-    std::int32_t mjd = utc.mjd();
-    double second = utc.second_of_day();
-    Instant instant;
-    instant.clamped = mjd < kFirstSkyMjd || mjd > kLastSkyMjd;
-    if (instant.clamped) {
-        second = mjd < kFirstSkyMjd ? 0.0 : kSecondsPerDay;
-        mjd = std::clamp(mjd, kFirstSkyMjd, kLastSkyMjd);
-    }
-    const double day = kJulianDateOfMjdZero + mjd;
-    if (mjd < kFirstLeapSecondMjd) {
-        constexpr double kJ2000Mjd = 51544.5;
-        constexpr double kDaysPerYear = 365.25;
-        const double year = 2000.0 + (mjd - kJ2000Mjd + second / kSecondsPerDay) / kDaysPerYear;
-        instant.ut1 = {day, second / kSecondsPerDay};
-        instant.tt = {day, (second + delta_t_s(year)) / kSecondsPerDay};
-        return instant;
-    }
-    const TaiOffset offset = tai_offset(mjd);
-    instant.leap_seconds_assumed = offset.assumed;
-    instant.tt = {day, (second + offset.tai_minus_utc_s + kTtMinusTai_s) / kSecondsPerDay};
-    if (dut1_s && std::isfinite(*dut1_s)) {
-        instant.ut1 = {day, (second + *dut1_s) / kSecondsPerDay};
-    } else {
-        instant.ut1 = {day, second / length_of_day_s(mjd)};
-    }
-    return instant;
+Instant make_instant(const UtcClockTime& utc, const TimeOffsets& offsets) noexcept {
+    const ClampedUtc moment = clamped(utc);
+    const KnownOffsets known = known_offsets(utc);
+    const double day = kJulianDateOfMjdZero + moment.mjd;
+    const double tt_minus_utc_s = given_or(offsets.tt_minus_utc_s, known.tt_minus_utc_s);
+    const double ut1_minus_utc_s = given_or(offsets.ut1_minus_utc_s, known.ut1_minus_utc_s);
+    return {.tt = {day, (moment.second + tt_minus_utc_s) / kSecondsPerDay},
+            .ut1 = {day, (moment.second + ut1_minus_utc_s) / kSecondsPerDay},
+            .polar_x_rad = pole_or_zero(offsets.polar_x_rad),
+            .polar_y_rad = pole_or_zero(offsets.polar_y_rad),
+            .clamped = moment.outside,
+            .leap_seconds_assumed = known.leap_seconds_assumed && !is_usable(offsets.tt_minus_utc_s)};
+}
+
+Instant make_instant(const UtcClockTime& utc, std::optional<double> ut1_minus_utc_s) noexcept {
+    return make_instant(utc, TimeOffsets{.ut1_minus_utc_s = ut1_minus_utc_s});
+}
+
+JulianDate tai_from_tt(const JulianDate& tt) noexcept {
+    return {tt.day, tt.fraction - kTtMinusTai_s / kSecondsPerDay};
+}
+
+double tdb_minus_tt_s(const JulianDate& tt) noexcept {
+    constexpr double kRadPerDeg = 0.017453292519943295;
+    const double days = (tt.day - kJ2000) + tt.fraction;
+    const double anomaly_rad = (357.528 + 0.9856003 * days) * kRadPerDeg;
+    return 0.001657 * std::sin(anomaly_rad);
+}
+
+JulianDate tdb_from_tt(const JulianDate& tt) noexcept {
+    return {tt.day, tt.fraction + tdb_minus_tt_s(tt) / kSecondsPerDay};
 }
 
 }  // namespace skyig::server::ephemeris

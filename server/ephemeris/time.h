@@ -1,4 +1,4 @@
-// Civil UTC, a UTC clock that can be advanced, and the two uniform time scales the sky is computed from.
+// Civil UTC, a UTC clock that can be advanced, and the time scales that the sky is computed from.
 // None of this reads a clock: time comes in as data.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace skyig::server::ephemeris {
 
-/// A date and time of day in UTC, proleptic Gregorian. Before 1972 the same fields mean UT1.
+/// A date and time of day in UTC, proleptic Gregorian. Before 1971 the same fields mean UT1.
 struct CivilTime {
     int year = 2000;
     int month = 1;
@@ -78,7 +78,7 @@ struct JulianDate {
 /// One moment in the two scales that the sky needs: TT moves the bodies, UT1 turns the Earth.
 struct Instant {
     JulianDate tt{2451544.5, 0.5 + 64.184 / 86400.0};
-    JulianDate ut1{2451544.5, 0.5};
+    JulianDate ut1{2451544.5, 0.5 + 0.355 / 86400.0};
     /// Coordinates of the pole (ITRS, as bulletins give them); 0 without a file of Earth orientation.
     double polar_x_rad = 0.0;
     double polar_y_rad = 0.0;
@@ -91,17 +91,44 @@ struct Instant {
     friend bool operator==(const Instant&, const Instant&) = default;
 };
 
-/// TT and UT1 of a UTC instant.
-/// From 1972: TT = UTC + leap seconds + 32.184 s (table of the ERFA library; its last value, 69.184 s in all,
-/// beyond). Before: the input is UT1, TT = UT1 + delta_t_s(). \param dut1_s  UT1 - UTC from an
-/// Earth-orientation bulletin, |dut1_s| < 0.9; taken as given, so it has to step
-///   by one second at a leap second. Without it UT1 follows UTC within 0.9 s, and the leap second is spread
-///   evenly over its day, so that the Earth never turns backwards. Not finite: as if absent.
-[[nodiscard]] Instant make_instant(const UtcClockTime& utc,
-                                   std::optional<double> dut1_s = std::nullopt) noexcept;
+/// What is known of a moment better than the built-in tables do. What is absent, not finite or more than an
+/// hour comes from the tables; a pole that is not finite or beyond 1e-4 rad is 0.
+struct TimeOffsets {
+    std::optional<double> tt_minus_utc_s = std::nullopt;
+    /// Taken as given: at a leap second it has to step by one second, together with UTC.
+    std::optional<double> ut1_minus_utc_s = std::nullopt;
+    double polar_x_rad = 0.0;
+    double polar_y_rad = 0.0;
 
-/// TT - UT1 in seconds, for years 1900 to 1986: polynomials of Espenak & Meeus 2006 (0.9 s to 1920, 0.4 s to
-/// 1941, then 0.15 s from the measured values). Used before 1972; years outside are taken as the nearer end.
-[[nodiscard]] double delta_t_s(double year) noexcept;
+    friend bool operator==(const TimeOffsets&, const TimeOffsets&) = default;
+};
+
+/// What the tables say of a moment.
+struct KnownOffsets {
+    double tt_minus_utc_s = 0.0;
+    double ut1_minus_utc_s = 0.0;
+    bool leap_seconds_assumed = false;
+};
+
+/// From 1972: TT - UTC = leap seconds + 32.184 s (table of the ERFA library; its last value, 69.184 s in all,
+/// beyond) and UT1 = TT - delta_t_s(). To the end of 1970 the clock's UTC means UT1, TT = UT1 + delta_t_s();
+/// within 1971 it turns into UTC, which is 0.045 s. Neither TT nor UT1 steps anywhere: both run strictly
+/// forwards, through every leap second. Dates beyond 1900..2100 are taken as the nearer end.
+[[nodiscard]] KnownOffsets known_offsets(const UtcClockTime& utc) noexcept;
+
+/// TT and UT1 of a UTC instant: known_offsets(), where `offsets` does not say otherwise. A leap second,
+/// 23:59:60, is 86400 s after 0h of its day, and the offsets are those of that day. Always finite. Cost: 0.2
+/// microseconds.
+[[nodiscard]] Instant make_instant(const UtcClockTime& utc, const TimeOffsets& offsets) noexcept;
+[[nodiscard]] Instant make_instant(const UtcClockTime& utc,
+                                   std::optional<double> ut1_minus_utc_s = std::nullopt) noexcept;
+
+/// TAI = TT - 32.184 s.
+[[nodiscard]] JulianDate tai_from_tt(const JulianDate& tt) noexcept;
+
+/// TDB - TT at the Earth's centre, within 0.0017 s: 0.001657 s sin(g), g the Earth's mean anomaly. Error
+/// against ERFA's full series, 1900-2100: 0.00005 s.
+[[nodiscard]] double tdb_minus_tt_s(const JulianDate& tt) noexcept;
+[[nodiscard]] JulianDate tdb_from_tt(const JulianDate& tt) noexcept;
 
 }  // namespace skyig::server::ephemeris

@@ -186,7 +186,7 @@ TEST(SkyState, PutsStarsWhereErfaDoes) {
                           kEye.latitude_deg * kRadPerDeg, kEye.height_m, 0.0, 0.0, 0.0, 0.0, 0.0, 0.55, &az,
                           &zenith, &unused[0], &unused[1], &unused[2], &unused[3]),
                 0);
-            const SkyState state = compute_sky_state(make_instant(utc), kEye);
+            const SkyState state = compute_sky_state(make_instant(utc, 0.0), kEye);
             const glm::dvec3 star(std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec));
             const glm::dvec3 seen = state.enu_from_gcrs * glm::normalize(star + state.earth_velocity_c);
             const glm::dvec3 truth(std::sin(az) * std::sin(zenith), std::cos(az) * std::sin(zenith),
