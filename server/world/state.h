@@ -10,16 +10,12 @@
 #include "protocol/transport/endpoint.h"
 #include "server/ephemeris/sky_state.h"
 #include "server/world/authority.h"
+#include "server/world/ownship_track.h"
 
 namespace skyig::server::world {
 
 /// What carries the eye: entity 0.
-struct Ownship {
-    ephemeris::Geodetic position;
-    /// About Z, then Y, then X of north-east-down axes: clockwise from true north, nose up, right wing down.
-    double yaw_deg = 0.0;
-    double pitch_deg = 0.0;
-    double roll_deg = 0.0;
+struct Ownship : Pose {
     /// False once the host has destroyed entity 0: the last pose stays, so that the picture stays.
     bool exists = true;
     /// A source has placed it since start-up or Standby.

@@ -23,12 +23,11 @@ cigi::SessionOptions session_options(const config::Host& host) {
 }
 
 Ownship configured_ownship(const config::Start& start) {
-    Ownship ownship;
-    ownship.position = {start.latitude_deg, start.longitude_deg, start.height_m};
-    ownship.yaw_deg = start.yaw_deg;
-    ownship.pitch_deg = start.pitch_deg;
-    ownship.roll_deg = start.roll_deg;
-    return ownship;
+    const Pose pose{{start.latitude_deg, start.longitude_deg, start.height_m},
+                    start.yaw_deg,
+                    start.pitch_deg,
+                    start.roll_deg};
+    return {pose};
 }
 
 CelestialSwitches configured_celestial(const config::Sky& sky) {
@@ -67,6 +66,14 @@ std::string_view order_name(cigi::ByteOrder order) {
     return order == cigi::ByteOrder::kBig ? "big-endian" : "little-endian";
 }
 
+template <class Packet>
+Pose pose_of(const Packet& packet) noexcept {
+    return {{packet.lat_x, packet.lon_y, packet.alt_z},
+            static_cast<double>(packet.yaw),
+            static_cast<double>(packet.pitch),
+            static_cast<double>(packet.roll)};
+}
+
 /// Takes over what a sky can have; hosts that care for visibility only leave the others at 0.
 bool take(double value, double min, double max, double& out) noexcept {
     if (value < min || value > max) return false;
@@ -87,7 +94,9 @@ World::World(const config::Config& config, const ephemeris::UtcClockTime& start_
       ownship_(configured_ownship(config.start)),
       celestial_(configured_celestial(config.sky)),
       air_(configured_air(config.air)),
-      views_(config.channels) {}
+      views_(config.channels) {
+    track_.reset(ownship_);
+}
 
 Link World::link(std::size_t source) const noexcept {
     return {authority_.state(source), peers_[source].endpoint, authority_.silent_s(source),
@@ -102,6 +111,7 @@ void World::begin_message(std::size_t source, const protocol::transport::Endpoin
     source_ = source;
     from_ = from;
     verdict_ = Verdict::kNoControl;
+    stamp_s_.reset();
     // Should this message's IG Control be refused, its other packets count by what was agreed before.
     const LinkState state = authority_.state(source);
     if ((state == LinkState::kLive || state == LinkState::kStale) && from == peers_[source].endpoint)
@@ -114,6 +124,10 @@ void World::operator()(const cigi::IgControl& packet, const cigi::PacketInfo& in
         ++counters_.second_host;
         say_second_host();
         return;
+    }
+    if (packet.timestamp_valid) {
+        const double stamp_s = peers_[source_].stamps.seconds(packet.timestamp);
+        if (packet.extrapolation_enable) stamp_s_ = stamp_s;
     }
     if (authority_.claim(source_, config::Aspect::kControl)) {
         take_control(packet, info);
@@ -146,7 +160,10 @@ bool World::claim_peer(const cigi::PacketInfo& info) {
                      to_string(from_), version_name(info.version), order_name(info.order));
         peer.second_host_said = false;
     }
-    if (!spoken_for && session_source_ == source_) session_source_.reset();
+    if (!spoken_for) {
+        peer.stamps.reset();
+        if (session_source_ == source_) session_source_.reset();
+    }
     authority_.heard(source_);
     peer.endpoint = from_;
     return true;
@@ -199,6 +216,8 @@ void World::reset() {
     clock_ = UtcClock(default_utc_, config_.start.running);
     note_clock_step(before);
     ownship_ = configured_ownship(config_.start);
+    track_.reset(ownship_);
+    ownship_smoothed_ = false;
     celestial_ = configured_celestial(config_.sky);
     air_ = configured_air(config_.air);
     views_.reset();
@@ -212,11 +231,10 @@ void World::operator()(const cigi::EntityControl& packet, const cigi::PacketInfo
         return;
     }
     ownship_.exists = packet.entity_state != cigi::EntityState::kDestroyed;
+    ownship_smoothed_ = packet.extrapolation_enable;
     // In 4.0 the position is a packet of its own; a destroyed entity has none.
     if (info.version == cigi::Version::k40 || !ownship_.exists) return;
-    place_ownship(packet.attach_state, {packet.lat_x, packet.lon_y, packet.alt_z},
-                  static_cast<double>(packet.yaw), static_cast<double>(packet.pitch),
-                  static_cast<double>(packet.roll));
+    place_ownship(packet.attach_state, pose_of(packet));
 }
 
 void World::operator()(const cigi::EntityPosition& packet) {
@@ -227,30 +245,29 @@ void World::operator()(const cigi::EntityPosition& packet) {
     }
     // The position may come before, or without, the packet that creates the ownship.
     ownship_.exists = true;
-    place_ownship(packet.attach_state, {packet.lat_x, packet.lon_y, packet.alt_z},
-                  static_cast<double>(packet.yaw), static_cast<double>(packet.pitch),
-                  static_cast<double>(packet.roll));
+    place_ownship(packet.attach_state, pose_of(packet));
 }
 
-void World::place_ownship(bool attached, const ephemeris::Geodetic& position, double yaw_deg,
-                          double pitch_deg, double roll_deg) {
+void World::place_ownship(bool attached, const Pose& pose) {
     if (attached) {
         ++counters_.ownship_attached;
         log_.limited("ownship attached", kRepeatAfter_s, Severity::kWarning,
                      "the ownship is attached to another entity: not supported, its last place is held");
         return;
     }
-    if (!ephemeris::is_valid(position)) {
+    if (!ephemeris::is_valid(pose.position)) {
         ++counters_.position_refused;
         log_.limited("position refused", kRepeatAfter_s, Severity::kWarning,
-                     "ownship at {} m ignored: heights from {} to {} m can be drawn", position.height_m,
+                     "ownship at {} m ignored: heights from {} to {} m can be drawn", pose.position.height_m,
                      ephemeris::kMinEyeHeight_m, ephemeris::kMaxEyeHeight_m);
         return;
     }
-    ownship_.position = position;
-    ownship_.yaw_deg = yaw_deg;
-    ownship_.pitch_deg = pitch_deg;
-    ownship_.roll_deg = roll_deg;
+    if (track_source_ != source_) track_.reset(pose);
+    track_source_ = source_;
+    const std::optional<double> stamp_s = ownship_smoothed_ ? stamp_s_ : std::nullopt;
+    track_.report_position(pose.position, elapsed_s_, stamp_s);
+    track_.report_attitude(pose.yaw_deg, pose.pitch_deg, pose.roll_deg, elapsed_s_, stamp_s);
+    static_cast<Pose&>(ownship_) = pose;
     ownship_.placed_by_host = true;
 }
 
@@ -339,6 +356,9 @@ void World::note_view(ViewResult result, std::uint16_t view_id) {
 void World::advance(double step_s) {
     if (!(step_s > 0.0) || !std::isfinite(step_s)) return;
     time_s_ += step_s;
+    // What came before this step came at its start: the same instant is drawn.
+    static_cast<Pose&>(ownship_) = track_.at(elapsed_s_);
+    elapsed_s_ += step_s;
     clock_.advance(step_s);
     if (!config_.start.utc) default_utc_.advance(step_s);
     supervise(step_s);

@@ -87,6 +87,7 @@ class World {
     /// Who speaks for a source.
     struct Peer {
         protocol::transport::Endpoint endpoint;
+        StampClock stamps;
         bool second_host_said = false;
     };
 
@@ -101,8 +102,7 @@ class World {
     void note_events(const protocol::cigi::SessionEvents& events);
     void reset();
     void supervise(double step_s);
-    void place_ownship(bool attached, const ephemeris::Geodetic& position, double yaw_deg, double pitch_deg,
-                       double roll_deg);
+    void place_ownship(bool attached, const Pose& pose);
     void note_view(ViewResult result, std::uint16_t view_id);
     void note_clock_step(const ephemeris::UtcClockTime& before);
 
@@ -122,12 +122,21 @@ class World {
     ephemeris::UtcClockTime default_utc_;
     UtcClock clock_;
     Ownship ownship_;
+    OwnshipTrack track_;
+    /// Whose reports the track is made of.
+    std::optional<std::size_t> track_source_;
+    /// The sender's time of the current message, if its positions may be carried on.
+    std::optional<double> stamp_s_;
+    /// The entity's own smoothing bit: in 4.0 it comes in another packet than the position.
+    bool ownship_smoothed_ = false;
     CelestialSwitches celestial_;
     AirState air_;
     Views views_;
     WeatherStore weather_;
     Counters counters_;
     double time_s_ = 0.0;
+    /// The sum of all steps alone.
+    double elapsed_s_ = 0.0;
 };
 
 }  // namespace skyig::server::world

@@ -1,0 +1,192 @@
+#include "server/world/ownship_track.h"
+
+#include <algorithm>
+#include <cmath>
+#include <GeographicLib/Geocentric.hpp>
+#include <GeographicLib/Math.hpp>
+#include <numbers>
+
+namespace skyig::server::world {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kSecondsPerTick = 1e-5;
+/// Two reports further apart than this in time, faster than any orbit or than any craft turns, are a
+/// reposition: no motion is read from them.
+constexpr double kLongestGap_s = 1.0;
+constexpr double kFastest_m_s = 12'000.0;
+constexpr double kFastestTurn_rad_s = 15.0;
+/// How far the least delay may grow in a second: a sender's clock that runs slow by 200 ppm is followed.
+constexpr double kOffsetDrift = 2e-4;
+/// A delay that grows by more than this at once is a sender that began anew.
+constexpr double kOffsetJump_s = 2.0;
+
+glm::dvec3 ecef_of(const ephemeris::Geodetic& place) noexcept {
+    glm::dvec3 ecef;
+    GeographicLib::Geocentric::WGS84().Forward(place.latitude_deg, place.longitude_deg, place.height_m,
+                                               ecef.x, ecef.y, ecef.z);
+    return ecef;
+}
+
+ephemeris::Geodetic geodetic_of(const glm::dvec3& ecef) noexcept {
+    ephemeris::Geodetic place;
+    GeographicLib::Geocentric::WGS84().Reverse(ecef.x, ecef.y, ecef.z, place.latitude_deg,
+                                               place.longitude_deg, place.height_m);
+    return place;
+}
+
+glm::dvec3 ecef_from_enu(const ephemeris::Geodetic& place, const glm::dvec3& enu) noexcept {
+    double sin_lat = 0.0;
+    double cos_lat = 1.0;
+    double sin_lon = 0.0;
+    double cos_lon = 1.0;
+    GeographicLib::Math::sincosd(place.latitude_deg, sin_lat, cos_lat);
+    GeographicLib::Math::sincosd(place.longitude_deg, sin_lon, cos_lon);
+    const glm::dvec3 east(-sin_lon, cos_lon, 0.0);
+    const glm::dvec3 north(-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat);
+    const glm::dvec3 up(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat);
+    return east * enu.x + north * enu.y + up * enu.z;
+}
+
+/// Rotation vector of the shorter way round.
+glm::dvec3 rotation_vector(glm::dquat turn) noexcept {
+    if (turn.w < 0.0) turn = -turn;
+    const glm::dvec3 axis(turn.x, turn.y, turn.z);
+    const double sine = glm::length(axis);
+    // For a small turn the half angle's sine is the half angle.
+    return sine < 1e-12 ? 2.0 * axis : axis * (2.0 * std::atan2(sine, turn.w) / sine);
+}
+
+glm::dquat turn_by(const glm::dvec3& rotation) noexcept {
+    const double angle = glm::length(rotation);
+    const double scale = angle < 1e-12 ? 0.5 : std::sin(0.5 * angle) / angle;
+    return {std::cos(0.5 * angle), rotation.x * scale, rotation.y * scale, rotation.z * scale};
+}
+
+void set_attitude(Pose& pose, const glm::dquat& q) noexcept {
+    const double sine_pitch = std::clamp(2.0 * (q.w * q.y - q.z * q.x), -1.0, 1.0);
+    pose.pitch_deg = std::asin(sine_pitch) / kRadPerDeg;
+    if (std::abs(sine_pitch) > 1.0 - 1e-12) {
+        // Nose straight up or down: yaw and roll are one turn.
+        pose.yaw_deg = 2.0 * std::atan2(q.z, q.w) / kRadPerDeg;
+        pose.roll_deg = 0.0;
+        return;
+    }
+    pose.yaw_deg =
+        std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z)) / kRadPerDeg;
+    pose.roll_deg =
+        std::atan2(2.0 * (q.w * q.x + q.y * q.z), 1.0 - 2.0 * (q.x * q.x + q.y * q.y)) / kRadPerDeg;
+}
+
+}  // namespace
+
+glm::dquat ned_from_body(double yaw_deg, double pitch_deg, double roll_deg) noexcept {
+    const double half = 0.5 * kRadPerDeg;
+    const glm::dquat yaw(std::cos(yaw_deg * half), 0.0, 0.0, std::sin(yaw_deg * half));
+    const glm::dquat pitch(std::cos(pitch_deg * half), 0.0, std::sin(pitch_deg * half), 0.0);
+    const glm::dquat roll(std::cos(roll_deg * half), std::sin(roll_deg * half), 0.0, 0.0);
+    return yaw * pitch * roll;
+}
+
+double StampClock::seconds(std::uint32_t ticks) noexcept {
+    if (!started_) {
+        started_ = true;
+        ticks_ = 0;
+    } else {
+        ticks_ += static_cast<std::int32_t>(ticks - last_);
+    }
+    last_ = ticks;
+    return static_cast<double>(ticks_) * kSecondsPerTick;
+}
+
+bool SenderOffset::learn(double arrival_s, double sender_s) noexcept {
+    const double delay_s = arrival_s - sender_s;
+    const double since_s = std::max(arrival_s - last_arrival_s_, 0.0);
+    last_arrival_s_ = arrival_s;
+    if (!offset_s_ || std::abs(delay_s - *offset_s_) > kOffsetJump_s) {
+        offset_s_ = delay_s;
+        return false;
+    }
+    offset_s_ = std::min(*offset_s_ + kOffsetDrift * since_s, delay_s);
+    return true;
+}
+
+void OwnshipTrack::reset(const Pose& pose) noexcept {
+    *this = {};
+    pose_ = pose;
+}
+
+void OwnshipTrack::report_position(const ephemeris::Geodetic& position, double arrival_s,
+                                   std::optional<double> sender_s) noexcept {
+    const glm::dvec3 ecef_m = ecef_of(position);
+    if (!sender_s) {
+        position_offset_.reset();
+        if (!velocity_told_) velocity_ecef_m_s_.reset();
+    } else if (position_offset_.learn(arrival_s, *sender_s) && position_sender_s_) {
+        if (!velocity_told_) learn_velocity(ecef_m, *sender_s - *position_sender_s_);
+    } else if (!velocity_told_) {
+        velocity_ecef_m_s_.reset();
+    }
+    pose_.position = position;
+    ecef_m_ = ecef_m;
+    position_s_ = sender_s ? *sender_s + position_offset_.value_s() : arrival_s;
+    position_sender_s_ = sender_s;
+}
+
+void OwnshipTrack::learn_velocity(const glm::dvec3& ecef_m, double step_s) noexcept {
+    // The same instant told twice says nothing new of the motion.
+    if (step_s == 0.0) return;
+    velocity_ecef_m_s_.reset();
+    if (step_s < 0.0 || step_s > kLongestGap_s) return;
+    const glm::dvec3 velocity = (ecef_m - ecef_m_) / step_s;
+    if (glm::length(velocity) <= kFastest_m_s) velocity_ecef_m_s_ = velocity;
+}
+
+void OwnshipTrack::report_velocity(const glm::dvec3& velocity_enu_m_s) noexcept {
+    velocity_told_ = true;
+    velocity_ecef_m_s_ = ecef_from_enu(pose_.position, velocity_enu_m_s);
+}
+
+void OwnshipTrack::report_attitude(double yaw_deg, double pitch_deg, double roll_deg, double arrival_s,
+                                   std::optional<double> sender_s) noexcept {
+    const glm::dquat attitude = ned_from_body(yaw_deg, pitch_deg, roll_deg);
+    if (!sender_s) {
+        attitude_offset_.reset();
+        turn_rad_s_ = {};
+    } else if (attitude_offset_.learn(arrival_s, *sender_s) && attitude_sender_s_) {
+        learn_turn(attitude, *sender_s - *attitude_sender_s_);
+    } else {
+        turn_rad_s_ = {};
+    }
+    pose_.yaw_deg = yaw_deg;
+    pose_.pitch_deg = pitch_deg;
+    pose_.roll_deg = roll_deg;
+    ned_from_body_ = attitude;
+    attitude_s_ = sender_s ? *sender_s + attitude_offset_.value_s() : arrival_s;
+    attitude_sender_s_ = sender_s;
+}
+
+void OwnshipTrack::learn_turn(const glm::dquat& attitude, double step_s) noexcept {
+    if (step_s == 0.0) return;
+    turn_rad_s_ = {};
+    if (step_s < 0.0 || step_s > kLongestGap_s) return;
+    const glm::dvec3 turn = rotation_vector(glm::conjugate(ned_from_body_) * attitude) / step_s;
+    if (glm::length(turn) <= kFastestTurn_rad_s) turn_rad_s_ = turn;
+}
+
+double OwnshipTrack::ahead_s(double now_s, double reported_s) noexcept {
+    return std::clamp(now_s - reported_s, 0.0, kLongest_s);
+}
+
+Pose OwnshipTrack::at(double now_s) const noexcept {
+    Pose pose = pose_;
+    const double moved_s = ahead_s(now_s, position_s_);
+    if (velocity_ecef_m_s_ && *velocity_ecef_m_s_ != glm::dvec3{0.0} && moved_s > 0.0)
+        pose.position = geodetic_of(ecef_m_ + *velocity_ecef_m_s_ * moved_s);
+    const double turned_s = ahead_s(now_s, attitude_s_);
+    if (turn_rad_s_ != glm::dvec3{0.0} && turned_s > 0.0)
+        set_attitude(pose, ned_from_body_ * turn_by(turn_rad_s_ * turned_s));
+    return pose;
+}
+
+}  // namespace skyig::server::world

@@ -1,0 +1,101 @@
+// The ownship between two reports of its place: carried on by what it did last, then held.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+
+#include "server/ephemeris/sky_state.h"
+
+namespace skyig::server::world {
+
+/// Place and attitude: about Z, then Y, then X of north-east-down axes; clockwise from true north, nose up,
+/// right wing down.
+struct Pose {
+    ephemeris::Geodetic position;
+    double yaw_deg = 0.0;
+    double pitch_deg = 0.0;
+    double roll_deg = 0.0;
+
+    friend bool operator==(const Pose&, const Pose&) = default;
+};
+
+/// Seconds of a sender's clock that counts 10 microseconds in 32 bits: differences survive the wrap after
+/// 11.9 h either way.
+class StampClock {
+  public:
+    /// \return seconds since the first stamp
+    double seconds(std::uint32_t ticks) noexcept;
+    void reset() noexcept { started_ = false; }
+
+  private:
+    bool started_ = false;
+    std::uint32_t last_ = 0;
+    std::int64_t ticks_ = 0;
+};
+
+/// The world's time less a sender's, at the least delay seen: the network's delay and our frames' raster are
+/// taken out, a sender's clock that runs slow is followed.
+class SenderOffset {
+  public:
+    /// \return false when the two times have nothing to do with those before: a sender that began anew.
+    bool learn(double arrival_s, double sender_s) noexcept;
+    [[nodiscard]] double value_s() const noexcept { return offset_s_.value_or(0.0); }
+    void reset() noexcept { offset_s_.reset(); }
+
+  private:
+    std::optional<double> offset_s_;
+    double last_arrival_s_ = 0.0;
+};
+
+/// Reports come with the world's time of their arrival and, where the sender stamps them, with the sender's
+/// own time. Stamped reports are moved along the line (the turn) that the last two make. Reports without
+/// stamp stand until the next one, unless a velocity is known. Nothing is carried on for longer than
+/// kLongest_s: then it is held. Place and attitude may come together or each by itself.
+///
+/// Depends on what was reported alone: no clock, no allocation. 1 microsecond a frame.
+class OwnshipTrack {
+  public:
+    static constexpr double kLongest_s = 1.0;
+
+    /// \param arrival_s  the world's time  \param sender_s  of any origin; nothing: held until the next
+    void report_position(const ephemeris::Geodetic& position, double arrival_s,
+                         std::optional<double> sender_s) noexcept;
+    void report_attitude(double yaw_deg, double pitch_deg, double roll_deg, double arrival_s,
+                         std::optional<double> sender_s) noexcept;
+    /// East, north, up, metres a second: takes the place of what successive positions say from now on.
+    void report_velocity(const glm::dvec3& velocity_enu_m_s) noexcept;
+
+    /// The pose at the world's time `now_s`; bit for bit the reported one where nothing is to be carried on.
+    [[nodiscard]] Pose at(double now_s) const noexcept;
+
+    /// Another sender, or a new start: nothing of before is used but the pose.
+    void reset(const Pose& pose) noexcept;
+
+  private:
+    void learn_velocity(const glm::dvec3& ecef_m, double step_s) noexcept;
+    void learn_turn(const glm::dquat& attitude, double step_s) noexcept;
+    [[nodiscard]] static double ahead_s(double now_s, double reported_s) noexcept;
+
+    Pose pose_;
+
+    glm::dvec3 ecef_m_{0.0};
+    /// Of the last position, by the world's and the sender's clock.
+    double position_s_ = 0.0;
+    std::optional<double> position_sender_s_;
+    SenderOffset position_offset_;
+    std::optional<glm::dvec3> velocity_ecef_m_s_;
+    bool velocity_told_ = false;
+
+    glm::dquat ned_from_body_{1.0, 0.0, 0.0, 0.0};
+    double attitude_s_ = 0.0;
+    std::optional<double> attitude_sender_s_;
+    SenderOffset attitude_offset_;
+    /// Turn a second, about body axes, radians.
+    glm::dvec3 turn_rad_s_{0.0};
+};
+
+[[nodiscard]] glm::dquat ned_from_body(double yaw_deg, double pitch_deg, double roll_deg) noexcept;
+
+}  // namespace skyig::server::world
