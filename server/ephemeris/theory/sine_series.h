@@ -35,7 +35,7 @@ struct Varying {
 namespace detail {
 
 // Arithmetic on these is lane by lane: an extension that gcc and clang share. The compilers' own vectorisers
-// take a third to twice as long on the same loop.
+// take 1.3 to 2 times as long for the same loop.
 using Doubles [[gnu::vector_size(kLanes * sizeof(double))]] = double;
 using Words [[gnu::vector_size(kLanes * sizeof(double))]] = std::uint64_t;
 
