@@ -1,5 +1,6 @@
 #include "render/light_tables.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,6 +12,14 @@ namespace {
 
 constexpr double kDegree = glm::radians(1.0);
 
+// In the Moon's shadow the sky is lit from beyond it: of a full day's light a few ten-thousandths at
+// mid-totality (Sharp, Silverman and Lloyd 1971 measured 1e-4 to 1e-3).
+constexpr double kFromBeyondShadow = 2e-4;
+
+// What the Earth's air bends into its shadow, of the full Moon's light: the mean over the umbra of
+// shaders::sunlight_in_shadow().
+constexpr double kFromUmbra = 4e-5;
+
 double sunlight_lux(const sky::AirModel& model) {
     double sum = 0.0;
     for (const float part : model.sunlight_xyz_lux[1])
@@ -21,6 +30,11 @@ double sunlight_lux(const sky::AirModel& model) {
 }  // namespace
 
 LightTables::LightTables() = default;
+
+sky::RefractionRow LightTables::refraction(const Scene& scene) const noexcept {
+    const double pressure_hpa = scene.air.model_enabled ? scene.air.pressure_hpa : 0.0;
+    return refraction_.at(scene.eye.height_m, pressure_hpa, scene.air.temperature_c);
+}
 
 Held LightTables::held(const Scene& scene) const noexcept {
     Held held;
@@ -96,18 +110,21 @@ void LightTables::update(const Scene& scene, const Plan& plan) {
     update_view(moon_, plan.needs(Pass::kMoonSky), plan.moon_share > 0.0, moon_rad, scene.eye.height_m);
 }
 
-SkyLight LightTables::light(const Scene& scene, const Plan& plan) const noexcept {
+SkyLight LightTables::light(const Scene& scene, const Plan& plan,
+                            const sky::RefractionRow& refraction) const noexcept {
     SkyLight light;
+    light.refraction = refraction;
     light.eye_height_m = scene.eye.height_m;
-    light.horizon_elevation_rad = horizon_elevation_rad(scene.eye.height_m);
+    light.horizon_elevation_rad = refraction.horizon_elevation_rad();
+    light.straight_horizon_rad = horizon_elevation_rad(scene.eye.height_m);
     if (plan.sun_share > 0.0 && sun_.front_made.air != 0) {
-        const double share =
-            plan.sun_share * scene.sun.unobscured / (scene.sun.distance_au * scene.sun.distance_au);
+        const double unobscured = std::max(scene.sun.unobscured, kFromBeyondShadow);
+        const double share = plan.sun_share * unobscured / (scene.sun.distance_au * scene.sun.distance_au);
         light.sun = {&sun_.front, horizontal_of(scene.sun.direction_enu),
                      glm::vec3{static_cast<float>(share)}};
     }
     if (plan.moon_share > 0.0 && moon_.front_made.air != 0) {
-        const double share = plan.moon_share *
+        const double share = plan.moon_share * std::max(scene.moon.sunlit, kFromUmbra) *
                              night::moon_illuminance_lux(scene.moon.phase_angle_rad, scene.moon.distance_km) /
                              sunlight_lux(air_->model());
         light.moon = {&moon_.front, horizontal_of(scene.moon.direction_enu),

@@ -11,6 +11,7 @@
 #include "render/plan.h"
 #include "render/scene.h"
 #include "render/sky/air_tables.h"
+#include "render/sky/refraction.h"
 #include "render/sky/sky_view.h"
 #include "render/sky_light.h"
 
@@ -29,12 +30,17 @@ class LightTables {
     /// What the tables are fit for, seen from this scene.
     [[nodiscard]] Held held(const Scene& scene) const noexcept;
 
+    /// How the scene's air bends light on its way to the eye; not at all when the host has switched the air
+    /// off.
+    [[nodiscard]] sky::RefractionRow refraction(const Scene& scene) const noexcept;
+
     /// Follows the plan. The first call, and one that finds a source that matters or the eye somewhere else
     /// altogether, builds whole tables at once.
     void update(const Scene& scene, const Plan& plan);
 
     /// The frame's light, from the tables in use.
-    [[nodiscard]] SkyLight light(const Scene& scene, const Plan& plan) const noexcept;
+    [[nodiscard]] SkyLight light(const Scene& scene, const Plan& plan,
+                                 const sky::RefractionRow& refraction) const noexcept;
 
     /// Rises by one whenever a table in use is replaced.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
@@ -62,6 +68,7 @@ class LightTables {
     void update_air(const Scene& scene, const Plan& plan);
     void update_view(View& view, bool needed, bool matters, double elevation_rad, double height_m);
 
+    sky::Refraction refraction_;
     std::optional<sky::AirTables> air_;
     std::uint64_t air_revision_ = 0;
     AirBuilder builder_;

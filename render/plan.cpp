@@ -19,8 +19,18 @@ bool height_is_stale(double now_m, double held_m) {
 }
 
 constexpr double kBrightestStar_mag = -1.46;
+// Planets below this stand under the horizon wherever a cockpit may be; from higher up they only cost a pass.
+constexpr double kLowestPlanet_sine = -0.1;
 // Beyond the eye's limit a star still brightens its pixels by some codes: it fades out over the last 0.8 mag.
 constexpr double kStarMargin_mag = 1.5;
+
+double brightest_point_mag(const Scene& scene) {
+    double brightest = kBrightestStar_mag;
+    for (const Planet& planet : scene.planets) {
+        if (planet.direction_enu.z > kLowestPlanet_sine) brightest = std::min(brightest, planet.magnitude);
+    }
+    return brightest;
+}
 
 PlannedPass plan_sky(Pass pass, bool lights, bool valid, double now_rad, double held_rad, bool height_stale) {
     if (!lights) return {pass, false, "the source is too low to light the air"};
@@ -31,9 +41,9 @@ PlannedPass plan_sky(Pass pass, bool lights, bool valid, double now_rad, double 
     return {pass, false, "the table is fresh"};
 }
 
-PlannedPass plan_disc(Pass pass, bool enabled, double elevation_rad, double radius_rad, double horizon_rad) {
+PlannedPass plan_disc(Pass pass, bool enabled, double elevation_rad, double radius_rad, double sets_at_rad) {
     if (!enabled) return {pass, false, "switched off"};
-    if (elevation_rad + 1.1 * radius_rad < horizon_rad) return {pass, false, "below the horizon"};
+    if (elevation_rad + 1.1 * radius_rad < sets_at_rad) return {pass, false, "below the horizon"};
     return {pass, true, "above the horizon"};
 }
 
@@ -60,7 +70,8 @@ double faintest_visible_mag(double background_cd_m2) noexcept {
     return std::max(magnitude(-9.80, -1.90), magnitude(-8.35, -5.90));
 }
 
-Plan make_plan(const Scene& scene, const Held& held) noexcept {
+Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction) noexcept {
+    const double sets_at_rad = refraction.setting_elevation_rad();
     Plan plan;
     const double horizon_rad = horizon_elevation_rad(scene.eye.height_m);
     const double sun_rad = horizontal_of(scene.sun.direction_enu).elevation_rad;
@@ -85,9 +96,9 @@ Plan make_plan(const Scene& scene, const Held& held) noexcept {
     put(plan, {Pass::kDome, true, "smooth light of all directions"});
     put(plan, {Pass::kStars, false, "not decided yet"});
     put(plan,
-        plan_disc(Pass::kSunDisc, scene.sun.enabled, sun_rad, scene.sun.angular_radius_rad, horizon_rad));
+        plan_disc(Pass::kSunDisc, scene.sun.enabled, sun_rad, scene.sun.angular_radius_rad, sets_at_rad));
     put(plan,
-        plan_disc(Pass::kMoonDisc, scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad, horizon_rad));
+        plan_disc(Pass::kMoonDisc, scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad, sets_at_rad));
     return plan;
 }
 
@@ -95,8 +106,8 @@ void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2) noexcep
     plan.star_limit_mag = faintest_visible_mag(background_cd_m2) + kStarMargin_mag;
     if (!scene.stars.enabled || scene.stars.intensity <= 0.0) {
         put(plan, {Pass::kStars, false, "switched off"});
-    } else if (plan.star_limit_mag < kBrightestStar_mag) {
-        put(plan, {Pass::kStars, false, "the sky outshines every star"});
+    } else if (plan.star_limit_mag < brightest_point_mag(scene)) {
+        put(plan, {Pass::kStars, false, "the sky outshines every star and planet"});
     } else {
         put(plan, {Pass::kStars, true, "some stars outshine the sky"});
     }

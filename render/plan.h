@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "render/scene.h"
+#include "render/sky/refraction.h"
 
 namespace skyig::render {
 
@@ -58,11 +59,13 @@ struct Plan {
     [[nodiscard]] bool needs(Pass pass) const noexcept { return (*this)[pass].needed; }
 };
 
-/// \param scene  the frame; \param held  what is in the tables. Deterministic: equal input gives an equal
-/// plan. Stars are left for plan_stars(), which needs the light that this plan leads to.
-[[nodiscard]] Plan make_plan(const Scene& scene, const Held& held) noexcept;
+/// \param scene  the frame; \param held  what is in the tables; \param refraction  of the frame's eye and
+/// air. Deterministic: equal input gives an equal plan. Stars are left for plan_stars(), which needs the
+/// light that this plan leads to.
+[[nodiscard]] Plan make_plan(const Scene& scene, const Held& held,
+                             const sky::RefractionRow& refraction) noexcept;
 
-/// Decides on the stars. \param background_cd_m2  the darkest sky that they stand before
+/// Decides on the stars and planets. \param background_cd_m2  the darkest sky that they stand before
 void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2) noexcept;
 
 /// Faintest star that a practised eye sees before a background, V magnitude (Schaefer 1990, after Knoll et

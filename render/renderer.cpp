@@ -203,9 +203,10 @@ Renderer::~Renderer() = default;
 const FrameReport& Renderer::prepare(const Scene& scene) {
     Impl& m = *impl_;
     m.scene = scene;
-    m.report.plan = make_plan(scene, m.tables.held(scene));
+    const sky::RefractionRow refraction = m.tables.refraction(scene);
+    m.report.plan = make_plan(scene, m.tables.held(scene), refraction);
     m.tables.update(scene, m.report.plan);
-    m.light = m.tables.light(scene, m.report.plan);
+    m.light = m.tables.light(scene, m.report.plan, refraction);
 
     m.pixel_rad = kCoarsestEdge_rad;
     for (std::size_t i = 0; i < m.channels.size() && i < scene.view_count; ++i) {

@@ -50,8 +50,8 @@ class Renderer {
 
     [[nodiscard]] std::span<const Channel> channels() const noexcept;
 
-    /// The colour, encoded for the display and before dither, that the same functions give for one direction
-    /// (discs and stars left out): what the tests hold the drawn pixels against.
+    /// The colour, encoded for the display and before dither, that the same functions give for one
+    /// direction of view (discs and stars left out): what the tests hold the drawn pixels against.
     [[nodiscard]] glm::dvec3 reference_colour(const glm::dvec3& direction_enu) const;
 
   private:

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "render/geometry.h"
+#include "render/sky/refraction.h"
 #include "render/sky/sky_view.h"
 
 namespace skyig::render {
@@ -23,12 +24,22 @@ enum class Side { kByElevation, kSky, kGround };
 struct SkyLight {
     LitAir sun;
     LitAir moon;
-    /// Of this frame's eye, exact; a table made a little lower or higher is asked at the same angle from its
-    /// own horizon.
+    /// Where this frame's air shows a body that the scene gives airless.
+    sky::RefractionRow refraction;
+    /// Where the ground is seen to end: refraction's.
     double horizon_elevation_rad = 0.0;
+    /// Where it would without refraction: as the tables have it. Of this frame's eye, exact; a table made a
+    /// little lower or higher is asked at the same angle from its own horizon.
+    double straight_horizon_rad = 0.0;
     double eye_height_m = 0.0;
 
-    /// Linear Rec.709, cd/m2 (components may be negative outside the gamut; luminance is >= 0).
+    /// Elevation of the straight ray that stands in the tables for the curved one seen at `elevation_rad`: it
+    /// comes as near to the ground. The same above the level; on the horizon the straight horizon (0.2 deg
+    /// lower at 11 km); below, the shift shrinks with the distance of the ground. Rises with its argument.
+    [[nodiscard]] double straight_elevation_rad(double elevation_rad) const noexcept;
+
+    /// \param elevation_rad  apparent
+    /// \return linear Rec.709, cd/m2 (components may be negative outside the gamut; luminance is >= 0).
     [[nodiscard]] glm::vec3 rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept;
 };
 

@@ -1,4 +1,5 @@
-// The stars of one frame: turned, dimmed by the air, sorted out, ready to draw for all channels.
+// The stars and planets of one frame: turned, lifted and dimmed by the air, sorted out, ready to draw for all
+// channels.
 #pragma once
 
 #include <cstddef>
@@ -15,19 +16,19 @@ namespace skyig::render {
 
 /// As the vertex shader night/star.vert takes it.
 struct StarVertex {
-    glm::vec3 direction_enu;
+    glm::vec3 direction_enu;    ///< as it is seen
     glm::vec3 illuminance_lux;  ///< linear Rec.709, behind the air
     glm::vec3 background;       ///< display linear, of the sky behind the star
 };
 
 class StarField {
   public:
-    /// Allocates for the whole catalogue.
+    /// Allocates for the whole catalogue and the planets.
     StarField();
 
-    /// \param limit_mag  V magnitude outside the air; fainter stars are left out, brighter ones fade in over
-    /// 0.8 mag Annual aberration: direction + velocity / c, normalised (second order neglected: 0.001
-    /// arcsec).
+    /// \param limit_mag  V magnitude outside the air; fainter ones are left out, brighter ones fade in over
+    /// 0.8 mag. Annual aberration of stars: direction + velocity / c, normalised (second order neglected:
+    /// 0.001 arcsec). Refraction is interpolated: within 3 arcsec of the frame's row.
     void update(const Scene& scene, const sky::AirTables& air, const SkyLight& light,
                 const shaders64::ToneParameters& tone, double limit_mag);
 
@@ -35,8 +36,15 @@ class StarField {
     [[nodiscard]] std::size_t capacity() const noexcept { return stars_.size(); }
 
   private:
-    void tabulate_transmittance(const SkyLight& light, const sky::AirTables& air);
-    [[nodiscard]] glm::vec3 transmittance(double elevation_rad, double horizon_rad) const noexcept;
+    struct Frame;
+    /// What the air does to a point of light, over airless elevation.
+    struct Air {
+        glm::vec3 transmittance;
+        float lift_rad;
+    };
+    void tabulate_air(const SkyLight& light, const sky::AirTables& air);
+    [[nodiscard]] Air air_at(double elevation_rad, double lowest_rad) const noexcept;
+    void add(const glm::vec3& direction_enu, const glm::vec3& illuminance_lux, const Frame& frame) noexcept;
 
     struct Source {
         glm::vec3 direction_gcrs;  // J2000
@@ -46,7 +54,7 @@ class StarField {
     };
     std::vector<Source> sources_;  // brightest first
     std::vector<StarVertex> stars_;
-    std::vector<glm::vec3> transmittance_;
+    std::vector<Air> air_;
     std::size_t count_ = 0;
 };
 

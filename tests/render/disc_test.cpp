@@ -17,9 +17,11 @@ class Disc : public GlTest {};
 
 constexpr int kSize = 256;
 
+// Looks where the scene's air shows a body that stands at these angles without air.
 Picture draw_towards(Scene scene, double azimuth_deg, double elevation_deg, double half_width_deg) {
+    const double seen_rad = refraction_of(scene).apparent_from_true(elevation_deg * kDegree);
     add_view(scene, symmetric_frustum(half_width_deg, kSize, kSize),
-             view_from_enu(azimuth_deg, elevation_deg, 0.0));
+             view_from_enu(azimuth_deg, seen_rad / kDegree, 0.0));
     DisplaySettings display;
     display.dither = false;
     Renderer renderer({{"only", kSize, kSize}}, display);
@@ -99,9 +101,10 @@ TEST_F(Disc, FullMoonIsWhiteAndNewMoonHidesInTwilight) {
 }
 
 TEST_F(Disc, SettingSunIsCutByTheHorizon) {
-    Scene scene = make_scene(0.0, 270.0, -50.0, 0.0, 0.0);
+    const double true_deg = refraction_of({}).setting_elevation_rad() / kDegree;
+    Scene scene = make_scene(true_deg, 270.0, -50.0, 0.0, 0.0);
     scene.air.visibility_m = 200e3;
-    const Picture picture = draw_towards(scene, 270.0, 0.0, 1.0);
+    const Picture picture = draw_towards(scene, 270.0, true_deg, 1.0);
     EXPECT_GT(picture.at(128, 118).r, 250);
     EXPECT_LT(picture.at(128, 150).g, picture.at(128, 118).g - 20);
 }

@@ -10,6 +10,7 @@
 
 #include "render/eye/tone_curve.h"
 #include "render/light_tables.h"
+#include "tests/render/light_tables_steps.h"
 #include "tests/render/scenes.h"
 
 namespace skyig::render {
@@ -97,9 +98,7 @@ TEST(Dome, InterpolatedColoursAreWithinACodeOfTheExactOnes) {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (const auto& named : tests::four_times()) {
         LightTables tables;
-        const Plan plan = make_plan(named.scene, tables.held(named.scene));
-        tables.update(named.scene, plan);
-        const SkyLight light = tables.light(named.scene, plan);
+        const SkyLight light = tests::step(tables, named.scene);
         const double luminance = std::max(
             1e-4, static_cast<double>(shaders32::luminance_709(light.rgb_cd_m2(0.3, 2.0, Side::kSky))));
         const auto tone = eye::tone_parameters({}, 3.0 * luminance);

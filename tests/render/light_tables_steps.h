@@ -13,9 +13,10 @@ inline double luminance(const SkyLight& light, double elevation_deg, double azim
 }
 
 inline SkyLight step(LightTables& tables, const Scene& scene) {
-    const Plan plan = make_plan(scene, tables.held(scene));
+    const sky::RefractionRow refraction = tables.refraction(scene);
+    const Plan plan = make_plan(scene, tables.held(scene), refraction);
     tables.update(scene, plan);
-    return tables.light(scene, plan);
+    return tables.light(scene, plan, refraction);
 }
 
 }  // namespace skyig::render::tests

@@ -30,7 +30,7 @@ TEST_F(Pixel, SmoothLightIsWithinACodeOfTheExactColour) {
         add_view(scene, frustum, view_from_enu(source + 15.0, 6.0, 5.0));
         Renderer renderer(channels, undithered());
         const auto pictures = draw(renderer, scene);
-        const double horizon = -std::acos(6371e3 / (6371e3 + scene.eye.height_m));
+        const double horizon = refraction_of(scene).horizon_elevation_rad();
         const double edge = 1.5 * pixel_angle_rad(channels[0], frustum);
         std::vector<double> errors;
         for (int y = 0; y < kHeight; y += 3) {

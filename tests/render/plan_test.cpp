@@ -12,6 +12,10 @@ namespace {
 
 using tests::make_scene;
 
+Plan plan_of(const Scene& scene, const Held& held) {
+    return make_plan(scene, held, tests::refraction_of(scene));
+}
+
 Held fresh(const Scene& scene) {
     Held held;
     held.air_valid = held.air_fresh = held.sun_sky_valid = held.moon_sky_valid = true;
@@ -22,7 +26,7 @@ Held fresh(const Scene& scene) {
 }
 
 TEST(Plan, NothingHeldBuildsAirAndSky) {
-    const Plan plan = make_plan(make_scene(30, 180, -20, 0, 1000), {});
+    const Plan plan = plan_of(make_scene(30, 180, -20, 0, 1000), {});
     EXPECT_TRUE(plan.needs(Pass::kAirTables));
     EXPECT_TRUE(plan.needs(Pass::kSunSky));
     EXPECT_FALSE(plan.needs(Pass::kMoonSky));
@@ -31,7 +35,7 @@ TEST(Plan, NothingHeldBuildsAirAndSky) {
 
 TEST(Plan, FreshTablesAreKept) {
     const Scene scene = make_scene(30, 180, 10, 0, 1000);
-    const Plan plan = make_plan(scene, fresh(scene));
+    const Plan plan = plan_of(scene, fresh(scene));
     EXPECT_FALSE(plan.needs(Pass::kAirTables));
     EXPECT_FALSE(plan.needs(Pass::kSunSky));
     EXPECT_EQ(plan.sun_share, 1.0);
@@ -41,28 +45,46 @@ TEST(Plan, SourceThatMovedAHundredthOfADegreeMakesItsTableStale) {
     const Scene scene = make_scene(30, 180, 10, 0, 1000);
     Held held = fresh(scene);
     held.sun_sky_elevation_rad += 0.009 * tests::kDegree;
-    EXPECT_FALSE(make_plan(scene, held).needs(Pass::kSunSky));
+    EXPECT_FALSE(plan_of(scene, held).needs(Pass::kSunSky));
     held.sun_sky_elevation_rad += 0.002 * tests::kDegree;
-    EXPECT_TRUE(make_plan(scene, held).needs(Pass::kSunSky));
+    EXPECT_TRUE(plan_of(scene, held).needs(Pass::kSunSky));
 }
 
 TEST(Plan, StaleAirIsAskedForAnew) {
     const Scene scene = make_scene(30, 180, 10, 0, 1000);
     Held held = fresh(scene);
     held.air_fresh = false;
-    EXPECT_TRUE(make_plan(scene, held).needs(Pass::kAirTables));
-    EXPECT_FALSE(make_plan(scene, held).needs(Pass::kSunSky))
+    EXPECT_TRUE(plan_of(scene, held).needs(Pass::kAirTables));
+    EXPECT_FALSE(plan_of(scene, held).needs(Pass::kSunSky))
         << "the table in use serves until the new air is there";
 }
 
 TEST(Plan, StarsGoBecauseTheSkyIsBrightNotBecauseTheSunIsUp) {
     const Scene scene = make_scene(30, 180, 10, 0, 1000);
-    Plan plan = make_plan(scene, fresh(scene));
+    Plan plan = plan_of(scene, fresh(scene));
     plan_stars(plan, scene, 2000.0);
     EXPECT_FALSE(plan.needs(Pass::kStars));
     plan_stars(plan, scene, 2e-4);  // the same Sun, seen from above the air
     EXPECT_TRUE(plan.needs(Pass::kStars));
     EXPECT_GT(plan.star_limit_mag, 7.5);
+}
+
+TEST(Plan, PlanetsCountAsStarsForTheDecision) {
+    Scene scene = make_scene(5, 180, -10, 0, 0);
+    const double background = 300.0;
+    Plan plan = plan_of(scene, fresh(scene));
+    plan_stars(plan, scene, background);
+    ASSERT_FALSE(plan.needs(Pass::kStars));
+    scene.planets[1] = {tests::at(30, 200), -4.5, 0.8};
+    plan_stars(plan, scene, background);
+    EXPECT_TRUE(plan.needs(Pass::kStars));
+    scene.planets[1].direction_enu = tests::at(-30, 200);
+    plan_stars(plan, scene, background);
+    EXPECT_FALSE(plan.needs(Pass::kStars));
+    scene.planets[1].direction_enu = tests::at(30, 200);
+    scene.stars.enabled = false;
+    plan_stars(plan, scene, background);
+    EXPECT_FALSE(plan.needs(Pass::kStars));
 }
 
 TEST(Plan, LimitingMagnitudeFollowsThePublishedTwilightRow) {
@@ -83,27 +105,34 @@ TEST(Plan, LimitingMagnitudeFallsSmoothlyFromNightToDay) {
 }
 
 TEST(Plan, MoonlightsTheAirOnlyByNight) {
-    EXPECT_EQ(make_plan(make_scene(10, 0, 40, 180, 0), {}).moon_share, 0.0);
-    EXPECT_EQ(make_plan(make_scene(-10, 0, 40, 180, 0), {}).moon_share, 1.0);
-    EXPECT_EQ(make_plan(make_scene(-30, 0, -20, 180, 0), {}).moon_share, 0.0);
-    EXPECT_EQ(make_plan(make_scene(-30, 0, -20, 180, 0), {}).sun_share, 0.0);
+    EXPECT_EQ(plan_of(make_scene(10, 0, 40, 180, 0), {}).moon_share, 0.0);
+    EXPECT_EQ(plan_of(make_scene(-10, 0, 40, 180, 0), {}).moon_share, 1.0);
+    EXPECT_EQ(plan_of(make_scene(-30, 0, -20, 180, 0), {}).moon_share, 0.0);
+    EXPECT_EQ(plan_of(make_scene(-30, 0, -20, 180, 0), {}).sun_share, 0.0);
     // Its table is on the way before its light counts.
-    const Plan before = make_plan(make_scene(-2.5, 0, 40, 180, 0), {});
+    const Plan before = plan_of(make_scene(-2.5, 0, 40, 180, 0), {});
     EXPECT_TRUE(before.needs(Pass::kMoonSky));
     EXPECT_EQ(before.moon_share, 0.0);
 }
 
 TEST(Plan, DiscsBelowTheDippedHorizonAreDropped) {
-    EXPECT_FALSE(make_plan(make_scene(-1, 0, -40, 180, 0), {}).needs(Pass::kSunDisc));
-    EXPECT_TRUE(make_plan(make_scene(-1, 0, -40, 180, 12000), {}).needs(Pass::kSunDisc));
+    EXPECT_FALSE(plan_of(make_scene(-1, 0, -40, 180, 0), {}).needs(Pass::kSunDisc));
+    EXPECT_TRUE(plan_of(make_scene(-1, 0, -40, 180, 12000), {}).needs(Pass::kSunDisc));
+    // Lifted by 33' on the ground and by 62' at 11 km, where the apparent dip is 3.17 deg.
+    EXPECT_TRUE(plan_of(make_scene(-0.8, 0, -40, 180, 0), {}).needs(Pass::kSunDisc));
+    EXPECT_TRUE(plan_of(make_scene(-4.4, 0, -40, 180, 11e3), {}).needs(Pass::kSunDisc));
+    EXPECT_FALSE(plan_of(make_scene(-4.6, 0, -40, 180, 11e3), {}).needs(Pass::kSunDisc));
+    Scene airless = make_scene(-0.8, 0, -40, 180, 0);
+    airless.air.model_enabled = false;
+    EXPECT_FALSE(plan_of(airless, {}).needs(Pass::kSunDisc));
     Scene off = make_scene(20, 0, 20, 180, 0);
     off.sun.enabled = false;
-    EXPECT_EQ(make_plan(off, {})[Pass::kSunDisc].reason, "switched off");
+    EXPECT_EQ(plan_of(off, {})[Pass::kSunDisc].reason, "switched off");
 }
 
 TEST(Plan, EveryPassSaysWhy) {
     for (const auto& named : tests::four_times()) {
-        Plan plan = make_plan(named.scene, {});
+        Plan plan = plan_of(named.scene, {});
         plan_stars(plan, named.scene, 1.0);
         for (std::size_t i = 0; i < kPassCount; ++i) {
             EXPECT_EQ(static_cast<std::size_t>(plan.passes[i].pass), i);

@@ -8,6 +8,7 @@
 
 #include "render/channel.h"
 #include "render/scene.h"
+#include "render/sky/refraction.h"
 #include "render/sky_light.h"
 
 namespace skyig::render::tests {
@@ -39,6 +40,19 @@ inline Scene make_scene(double sun_elevation_deg, double sun_azimuth_deg, double
     const glm::dvec3 y = glm::normalize(glm::cross(glm::dvec3{0.1, -0.2, 0.97}, x));
     scene.stars.enu_from_gcrs = glm::dmat3{x, y, glm::cross(x, y)};
     return scene;
+}
+
+inline sky::RefractionRow refraction_of(const Scene& scene) {
+    static const sky::Refraction refraction;
+    return refraction.at(scene.eye.height_m, scene.air.model_enabled ? scene.air.pressure_hpa : 0.0,
+                         scene.air.temperature_c);
+}
+
+/// Where the scene's air shows what stands at a direction without air.
+inline glm::dvec3 seen(const Scene& scene, const glm::dvec3& direction_enu) {
+    const Horizontal airless = horizontal_of(direction_enu);
+    return direction_of(
+        {refraction_of(scene).apparent_from_true(airless.elevation_rad), airless.azimuth_rad});
 }
 
 /// The four times of day that a seam or a colour must hold at.

@@ -69,7 +69,7 @@ TEST_F(Seam, CommonEdgeOfNeighboursDiffersByAtMostOneCodeWithABodyOnIt) {
     const Frustum frustum = centred_on_edge(30.0, kWidth, kHeight);
     for (const auto& [name, scene] : four_times()) {
         const bool by_day = name == "dawn" || name == "noon";
-        const glm::dvec3 body = by_day ? scene.sun.direction_enu : scene.moon.direction_enu;
+        const glm::dvec3 body = seen(scene, by_day ? scene.sun.direction_enu : scene.moon.direction_enu);
         // Where the body is low, the horizon crosses the seams too; rolled so that no row follows it.
         const double pitch_deg = name == "noon" ? 48.0 : name == "night" ? 38.0 : 8.0;
         for (std::size_t seam = 0; seam < 2; ++seam) {
@@ -104,8 +104,10 @@ TEST_F(Seam, SunAndMoonOnTheSeamMatchToo) {
         add_view(scene, frustum, view_from_enu(150.0, 0.0, 0.0));
         add_view(scene, frustum, view_from_enu(210.0, 0.0, 0.0));
         const auto pictures = draw(channels, scene, undithered());
-        const int sun_row = row_on_last_column(channels[0], scene.views[0], scene.sun.direction_enu);
-        const int moon_row = row_on_last_column(channels[0], scene.views[0], scene.moon.direction_enu);
+        const int sun_row =
+            row_on_last_column(channels[0], scene.views[0], seen(scene, scene.sun.direction_enu));
+        const int moon_row =
+            row_on_last_column(channels[0], scene.views[0], seen(scene, scene.moon.direction_enu));
         const int worst = largest_difference_of_seam(pictures[0], pictures[1]);
         const double moon_above = stands_out(pictures[0], moon_row);
         std::printf("sun at %.1f deg: %d codes at most; the Moon shows %.1f above its sky\n", sun_elevation,
@@ -129,7 +131,7 @@ TEST_F(Seam, BrightStarOnTheSeamMatchesToo) {
         add_view(scene, frustum, view_from_enu(150.0, 0.0, 0.0));
         add_view(scene, frustum, view_from_enu(210.0, 0.0, 0.0));
         const auto pictures = draw(channels, scene, undithered());
-        const int row = row_on_last_column(channels[0], scene.views[0], place);
+        const int row = row_on_last_column(channels[0], scene.views[0], seen(scene, place));
         const int worst = largest_difference_of_seam(pictures[0], pictures[1]);
         const double above = stands_out(pictures[0], row);
         std::printf("Sirius at %.0f deg: %d codes at most; it shows %.1f above its sky\n", elevation, worst,

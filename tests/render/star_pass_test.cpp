@@ -41,9 +41,11 @@ const night::CatalogueStar& brightest_star() {
                              [&](const auto& a, const auto& b) { return brightness(a) < brightness(b); });
 }
 
+// As it is seen.
 glm::dvec3 brightest_direction() {
     const Scene scene = make_scene(-40.0, 0.0, -40.0, 90.0, 0.0);
-    return glm::normalize(scene.stars.enu_from_gcrs * glm::dvec3{brightest_star().direction_gcrs});
+    return seen(scene,
+                glm::normalize(scene.stars.enu_from_gcrs * glm::dvec3{brightest_star().direction_gcrs}));
 }
 
 TEST_F(StarPass, StarStandsWhereItsDirectionIs) {

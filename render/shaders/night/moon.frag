@@ -1,5 +1,6 @@
 #version 450 core
-// The Moon as a lit sphere: phase, bright limb and crescent follow from the direction of the Sun.
+// The Moon as a lit sphere: phase, bright limb and crescent follow from the direction of the Sun, an eclipse from the
+// Earth's shadow.
 #include "common/scalar.glsl"
 #include "eye/tone.glsl"
 #include "night/moon.glsl"
@@ -7,9 +8,11 @@
 #include "common/disc.glsl"
 
 uniform ToneParameters u_tone;
-uniform vec3 u_full_cd_m2;       // mean luminance of the lit face divided by its phase function, behind the air
+uniform vec3 u_full_cd_m2;       // mean luminance of the lit face divided by its phase function, outside the air
 uniform vec3 u_earthshine_cd_m2;
 uniform vec3 u_to_sun_disc;      // in the disc's axes: right, up, towards the eye
+uniform vec3 u_shadow_axis_disc; // from the Moon's centre to the axis of the Earth's shadow, in radii of the Moon
+uniform vec2 u_shadow_radii;     // of umbra and penumbra
 
 layout(location = 0) out vec4 o_colour;
 
@@ -17,7 +20,9 @@ void main() {
     vec2 xy = v_offset / u_radius;
     float rr = min(dot(xy, xy), 1.0);
     vec3 normal = vec3(xy, sqrt(1.0 - rr));
-    vec3 light = sky_behind() + u_earthshine_cd_m2 +
-                 u_full_cd_m2 * lommel_seeliger(dot(normal, u_to_sun_disc), normal.z);
-    o_colour = vec4(dithered(shown(light, u_tone)), disc_coverage());
+    vec3 to_axis = u_shadow_axis_disc - normal;
+    float from_axis = length(to_axis - u_to_sun_disc * dot(to_axis, u_to_sun_disc));
+    vec3 sunlight = u_full_cd_m2 * sunlight_in_shadow(from_axis, u_shadow_radii.x, u_shadow_radii.y);
+    vec3 face = u_earthshine_cd_m2 + sunlight * lommel_seeliger(dot(normal, u_to_sun_disc), normal.z);
+    o_colour = vec4(dithered(shown(sky_behind() + v_light * face, u_tone)), disc_coverage());
 }

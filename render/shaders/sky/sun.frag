@@ -6,7 +6,6 @@
 #include "common/disc.glsl"
 
 uniform ToneParameters u_tone;
-uniform vec3 u_disc_cd_m2;       // mean over the disc, behind the air
 uniform vec3 u_limb;
 
 layout(location = 0) out vec4 o_colour;
@@ -15,6 +14,6 @@ void main() {
     float rho = min(length(v_offset) / u_radius, 1.0);
     float cos_emission = sqrt(1.0 - rho * rho);
     vec3 profile = (vec3(1.0) - u_limb * (1.0 - cos_emission)) / (vec3(1.0) - u_limb / 3.0);
-    vec3 light = sky_behind() + u_disc_cd_m2 * profile;
+    vec3 light = sky_behind() + v_light * profile;
     o_colour = vec4(dithered(shown(light, u_tone)), disc_coverage());
 }
