@@ -17,7 +17,7 @@ JulianDate knot_time(std::int64_t index) noexcept {
 
 SlowSky SkyClockwork::evaluate_knot(std::int64_t index) noexcept {
     ++evaluations_;
-    return evaluate_slow_sky(knot_time(index));
+    return evaluate_slow_sky(knot_time(index), model_);
 }
 
 void SkyClockwork::use_interval(std::int64_t index) noexcept {
@@ -41,7 +41,7 @@ SkyState SkyClockwork::state(const Instant& instant, const Geodetic& eye) noexce
     const double knots_a_day = kSecondsPerDay / kKnotSpacing_s;
     const double place = (instant.tt.day - kGridOriginJd) * knots_a_day + instant.tt.fraction * knots_a_day;
     // Only a hand-made instant is that far off; no interval has a number there.
-    if (!(std::abs(place) < kMostKnots)) return compute_sky_state(Instant{}, eye);
+    if (!(std::abs(place) < kMostKnots)) return compute_sky_state(Instant{}, eye, model_);
     const double knot = std::floor(place);
     use_interval(static_cast<std::int64_t>(knot));
     return sky_state_from(interpolate(from_, to_, place - knot), instant, eye);

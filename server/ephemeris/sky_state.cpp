@@ -8,15 +8,13 @@
 #include <GeographicLib/Math.hpp>
 #include <numbers>
 
+#include "server/ephemeris/light.h"
+#include "server/ephemeris/magnitude.h"
 #include "server/ephemeris/slow_sky.h"
 
 namespace skyig::server::ephemeris {
 namespace {
 
-constexpr double kSpeedOfLight_km_s = ERFA_CMPS / 1000.0;
-constexpr double kKmPerAu = ERFA_DAU / 1000.0;
-constexpr double kSunRadius_km = 695700.0;
-constexpr double kMoonRadius_km = 1737.4;
 constexpr double kEquatorRadius_km = 6378.137;
 constexpr double kFlattening = 1.0 / 298.257223563;
 /// Rate of the Earth rotation angle (IAU 2000), radians per second of UT1.
@@ -64,23 +62,9 @@ glm::dmat3 rotation_about_z(double angle_rad) noexcept {
     return {c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0};
 }
 
-/// Where the light of a body comes from: from the eye now to the body when the light left it, geocentric
-/// GCRS, km. The second step leaves 4 m of the Moon's 40 km.
-glm::dvec3 light_path(const glm::dvec3& body_km, const glm::dvec3& velocity_km_s,
-                      const glm::dvec3& eye_km) noexcept {
-    const glm::dvec3 geometric_km = body_km - eye_km;
-    glm::dvec3 path_km = geometric_km;
-    for (int step = 0; step < 2; ++step)
-        path_km = geometric_km - velocity_km_s * (glm::length(path_km) / kSpeedOfLight_km_s);
-    return path_km;
-}
-
-/// Lorentz transformation of the direction of light; `velocity_c` is the eye's, barycentric.
-glm::dvec3 aberrated(const glm::dvec3& direction, const glm::dvec3& velocity_c) noexcept {
-    const double along = glm::dot(direction, velocity_c);
-    const double inverse_gamma = std::sqrt(1.0 - glm::dot(velocity_c, velocity_c));
-    const double weight = 1.0 + along / (1.0 + inverse_gamma);
-    return glm::normalize(direction * inverse_gamma + velocity_c * weight);
+/// Polar motion, angles under 1e-4 rad: from the axes that turn about the pole of date to the Earth's own.
+glm::dmat3 itrs_from_tirs(double polar_x_rad, double polar_y_rad) noexcept {
+    return {1.0, 0.0, -polar_x_rad, 0.0, 1.0, polar_y_rad, polar_x_rad, -polar_y_rad, 1.0};
 }
 
 /// asin of radius over range, with sense also for an eye inside the body.
@@ -88,23 +72,94 @@ double angular_radius(double radius_km, double range_km) noexcept {
     return std::asin(std::min(radius_km / range_km, 1.0));
 }
 
-/// Unit vector from the Moon to the Sun as the eye should draw it. Light falls on the Moon along the true
-/// direction; aberration turns what the eye sees of it, so the light turns with the Moon's apparent place and
-/// the phase stays the true one.
-glm::dvec3 apparent_sunlight(const glm::dvec3& sun_path_km, const glm::dvec3& moon_path_km,
-                             const glm::dvec3& moon_direction, const glm::dvec3& moon_apparent) noexcept {
-    const glm::dvec3 to_sun = glm::normalize(sun_path_km - moon_path_km);
-    const glm::dvec3 small_rotation = glm::cross(moon_direction, moon_apparent);
-    return glm::normalize(to_sun + glm::cross(small_rotation, to_sun));
+/// Who looks, GCRS axes, and the axes that directions are wanted in.
+struct Observer {
+    glm::dvec3 position_km{0.0};
+    glm::dvec3 velocity_c{0.0};
+    glm::dmat3 axes_from_gcrs{1.0};
+    /// Celestial pole of date in the wanted axes.
+    glm::dvec3 pole{0.0, 0.0, 1.0};
+};
+
+void place_sun(SunState& sun, const glm::dvec3& path_km, const Observer& observer) noexcept {
+    const double range_km = glm::length(path_km);
+    sun.direction_enu = observer.axes_from_gcrs * aberrated(path_km / range_km, observer.velocity_c);
+    sun.distance_au = range_km / kKmPerAu;
+    sun.angular_radius_rad = angular_radius(kBodyRadii_km[index_of(Body::kSun)], range_km);
 }
 
-/// Phase and bright limb from the direction to the Moon and its light.
-void describe_phase(MoonState& moon, const glm::dvec3& celestial_pole_enu) noexcept {
+/// Light falls on the Moon along the true direction, and the face that is seen is the one that is turned to
+/// the eye. Aberration turns the whole picture, so light, face and shadow turn with the Moon's apparent place
+/// and the phase stays the true one.
+void place_moon(MoonState& moon, const SlowSky& slow, const glm::dvec3& sun_path_km,
+                const Observer& observer) noexcept {
+    const glm::dvec3 path_km = light_path(slow.moon_km, slow.moon_velocity_km_s, observer.position_km);
+    const double range_km = glm::length(path_km);
+    const glm::dvec3 direction = path_km / range_km;
+    const glm::dvec3 apparent = aberrated(direction, observer.velocity_c);
+    const glm::dvec3 turn = glm::cross(direction, apparent);
+    const auto turned = [&turn](const glm::dvec3& v) { return v + glm::cross(turn, v); };
+    const glm::dvec3 sun_from_moon_km = sun_path_km - path_km;
+    const double sun_range_km = glm::length(sun_from_moon_km);
+
+    moon.direction_enu = observer.axes_from_gcrs * apparent;
+    moon.distance_km = range_km;
+    moon.angular_radius_rad = angular_radius(kBodyRadii_km[index_of(Body::kMoon)], range_km);
+    moon.to_sun_enu = glm::normalize(observer.axes_from_gcrs * turned(sun_from_moon_km));
     moon.phase_angle_rad = angle_between_rad(-moon.direction_enu, moon.to_sun_enu);
     moon.lit_fraction = 0.5 * (1.0 - glm::dot(moon.direction_enu, moon.to_sun_enu));
-    const glm::dvec3 east = glm::cross(celestial_pole_enu, moon.direction_enu);
-    const glm::dvec3 north = glm::cross(moon.direction_enu, east);
-    moon.bright_limb_rad = std::atan2(glm::dot(moon.to_sun_enu, east), glm::dot(moon.to_sun_enu, north));
+    moon.bright_limb_rad = position_angle_rad(moon.direction_enu, moon.to_sun_enu, observer.pole);
+    moon.magnitude = moon_magnitude(sun_range_km / kKmPerAu, range_km / kKmPerAu, moon.phase_angle_rad);
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+        moon.enu_from_selenographic[axis] =
+            observer.axes_from_gcrs * turned(slow.gcrs_from_selenographic[axis]);
+    moon.shadow_axis_enu = observer.axes_from_gcrs * turned(slow.shadow.axis);
+    moon.umbra_radius = slow.shadow.umbra_radius;
+    moon.penumbra_radius = slow.shadow.penumbra_radius;
+    moon.sunlit = slow.shadow.sunlit;
+}
+
+/// Parallax moves a planet by its exact amount, its phase and brightness to first order (0.01 mag from a
+/// hundred thousand kilometres up, nothing from the ground).
+PlanetState placed_planet(const SlowPlanet& slow, double radius_km, const Observer& observer) noexcept {
+    constexpr double kMagnitudesPerRatio = 2.17147240951626;  // 5 / ln 10
+    const glm::dvec3 path_km = slow.path_km - observer.position_km;
+    const double range_km = glm::length(path_km);
+    PlanetState planet;
+    planet.direction_enu = observer.axes_from_gcrs * aberrated(path_km / range_km, observer.velocity_c);
+    planet.distance_km = range_km;
+    // The sine stands for the angle: 1e-9 of it.
+    planet.angular_radius_rad = radius_km / range_km;
+    planet.phase_angle_rad =
+        std::abs(slow.phase_angle_rad - glm::dot(slow.phase_slope_rad_km, observer.position_km));
+    planet.lit_fraction = 0.5 * (1.0 + std::cos(planet.phase_angle_rad));
+    planet.bright_limb_rad = slow.bright_limb_rad;
+    const double geocentric_km2 = glm::dot(slow.path_km, slow.path_km);
+    planet.magnitude =
+        slow.magnitude + 0.5 * kMagnitudesPerRatio * (range_km * range_km / geocentric_km2 - 1.0);
+    return planet;
+}
+
+void place_bodies(SkyState& state, const SlowSky& slow, const Observer& observer) noexcept {
+    const glm::dvec3 sun_path_km = light_path(slow.sun_km, slow.sun_velocity_km_s, observer.position_km);
+    place_sun(state.sun, sun_path_km, observer);
+    place_moon(state.moon, slow, sun_path_km, observer);
+    for (std::size_t i = 0; i < kPlanetCount; ++i)
+        state.planets[i] =
+            placed_planet(slow.planets[i], kBodyRadii_km[index_of(Body::kMercury) + i], observer);
+    state.sun.obscured =
+        covered_fraction(state.sun.angular_radius_rad, state.moon.angular_radius_rad,
+                         angle_between_rad(state.sun.direction_enu, state.moon.direction_enu));
+    state.enu_from_gcrs = observer.axes_from_gcrs;
+    state.true_of_date_from_gcrs = slow.true_of_date_from_gcrs;
+    state.earth_velocity_c = slow.earth_velocity_km_s / kSpeedOfLight_km_s;
+    state.eye_velocity_c = observer.velocity_c;
+    state.earth_barycentric_au = slow.earth_barycentric_km / kKmPerAu;
+    state.earth_heliocentric_au = -slow.sun_km / kKmPerAu;
+}
+
+double years_since_j2000(const JulianDate& tt) noexcept {
+    return ((tt.day - ERFA_DJ00) + tt.fraction) / 365.25;
 }
 
 }  // namespace
@@ -114,71 +169,42 @@ bool is_valid(const Geodetic& eye) noexcept {
            eye.height_m >= kMinEyeHeight_m && eye.height_m <= kMaxEyeHeight_m;
 }
 
-double angle_between_rad(const glm::dvec3& a, const glm::dvec3& b) noexcept {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
-double covered_fraction(double radius, double covering_radius, double separation) noexcept {
-    if (separation >= radius + covering_radius) return 0.0;
-    if (separation <= covering_radius - radius) return 1.0;
-    if (separation <= radius - covering_radius) {
-        const double ratio = covering_radius / radius;
-        return ratio * ratio;
-    }
-    // Two circular segments on the common chord; each is r^2 (a - sin a cos a) with a half the angle of its
-    // arc.
-    const auto segment = [separation](double r, double other) {
-        const double to_chord = (separation * separation + (r - other) * (r + other)) / (2.0 * separation);
-        const double half_chord = std::sqrt(std::max((r - to_chord) * (r + to_chord), 0.0));
-        return r * r * std::atan2(half_chord, to_chord) - to_chord * half_chord;
-    };
-    const double lens = segment(radius, covering_radius) + segment(covering_radius, radius);
-    return std::clamp(lens / (std::numbers::pi * radius * radius), 0.0, 1.0);
-}
-
 SkyState sky_state_from(const SlowSky& slow, const Instant& instant, const Geodetic& eye) noexcept {
     const Site site = site_of(accepted(eye));
+    const glm::dmat3 enu_from_tirs =
+        site.enu_from_itrs * itrs_from_tirs(instant.polar_x_rad, instant.polar_y_rad);
+    const glm::dvec3 position_tirs_km =
+        site.position_itrs_km * itrs_from_tirs(instant.polar_x_rad, instant.polar_y_rad);
     const double rotation_rad = eraEra00(instant.ut1.day, instant.ut1.fraction);
-    const glm::dmat3 itrs_from_gcrs = rotation_about_z(rotation_rad) * slow.cirs_from_gcrs;
-    const glm::dmat3 gcrs_from_itrs = glm::transpose(itrs_from_gcrs);
-
-    const glm::dvec3 eye_km = gcrs_from_itrs * site.position_itrs_km;
-    const glm::dvec3 turning_itrs_km_s =
-        kEarthRate_rad_s * glm::dvec3(-site.position_itrs_km.y, site.position_itrs_km.x, 0.0);
-    const glm::dvec3 eye_velocity_c =
-        (slow.earth_velocity_km_s + gcrs_from_itrs * turning_itrs_km_s) / kSpeedOfLight_km_s;
-
+    const glm::dmat3 tirs_from_gcrs = rotation_about_z(rotation_rad) * slow.cirs_from_gcrs;
+    // A row vector from the left is turned back by the matrix.
+    const glm::dvec3 turning_tirs_km_s =
+        kEarthRate_rad_s * glm::dvec3(-position_tirs_km.y, position_tirs_km.x, 0.0);
+    const Observer observer{
+        .position_km = position_tirs_km * tirs_from_gcrs,
+        .velocity_c = (slow.earth_velocity_km_s + turning_tirs_km_s * tirs_from_gcrs) / kSpeedOfLight_km_s,
+        .axes_from_gcrs = enu_from_tirs * tirs_from_gcrs,
+        .pole = enu_from_tirs[2]};
     SkyState state;
+    place_bodies(state, slow, observer);
+    state.years_since_j2000 = years_since_j2000(instant.tt);
     state.eye_accepted = is_valid(eye);
-    state.enu_from_gcrs = site.enu_from_itrs * itrs_from_gcrs;
-    state.earth_velocity_c = slow.earth_velocity_km_s / kSpeedOfLight_km_s;
-    state.years_since_j2000 = ((instant.tt.day - ERFA_DJ00) + instant.tt.fraction) / 365.25;
-
-    const glm::dvec3 sun_path_km = light_path(slow.sun_km, slow.sun_velocity_km_s, eye_km);
-    const double sun_range_km = glm::length(sun_path_km);
-    state.sun.direction_enu = state.enu_from_gcrs * aberrated(sun_path_km / sun_range_km, eye_velocity_c);
-    state.sun.distance_au = sun_range_km / kKmPerAu;
-    state.sun.angular_radius_rad = angular_radius(kSunRadius_km, sun_range_km);
-
-    const glm::dvec3 moon_path_km = light_path(slow.moon_km, slow.moon_velocity_km_s, eye_km);
-    const double moon_range_km = glm::length(moon_path_km);
-    const glm::dvec3 moon_direction = moon_path_km / moon_range_km;
-    const glm::dvec3 moon_apparent = aberrated(moon_direction, eye_velocity_c);
-    state.moon.direction_enu = state.enu_from_gcrs * moon_apparent;
-    state.moon.distance_km = moon_range_km;
-    state.moon.angular_radius_rad = angular_radius(kMoonRadius_km, moon_range_km);
-    state.moon.to_sun_enu =
-        state.enu_from_gcrs * apparent_sunlight(sun_path_km, moon_path_km, moon_direction, moon_apparent);
-    describe_phase(state.moon, site.enu_from_itrs[2]);
-
-    const double separation_rad = angle_between_rad(state.sun.direction_enu, state.moon.direction_enu);
-    state.sun.obscured =
-        covered_fraction(state.sun.angular_radius_rad, state.moon.angular_radius_rad, separation_rad);
     return state;
 }
 
-SkyState compute_sky_state(const Instant& instant, const Geodetic& eye) noexcept {
-    return sky_state_from(evaluate_slow_sky(instant.tt), instant, eye);
+SkyState geocentric_state_from(const SlowSky& slow, const JulianDate& tt) noexcept {
+    const Observer observer{.position_km = glm::dvec3(0.0),
+                            .velocity_c = slow.earth_velocity_km_s / kSpeedOfLight_km_s,
+                            .axes_from_gcrs = slow.true_of_date_from_gcrs,
+                            .pole = glm::dvec3(0.0, 0.0, 1.0)};
+    SkyState state;
+    place_bodies(state, slow, observer);
+    state.years_since_j2000 = years_since_j2000(tt);
+    return state;
+}
+
+SkyState compute_sky_state(const Instant& instant, const Geodetic& eye, Model model) noexcept {
+    return sky_state_from(evaluate_slow_sky(instant.tt, model), instant, eye);
 }
 
 }  // namespace skyig::server::ephemeris

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
 #include "server/ephemeris/sky_state.h"
@@ -66,6 +67,15 @@ inline server::ephemeris::Geodetic place_of(const CsvRow& row) {
     return {.latitude_deg = row.number("lat_deg"),
             .longitude_deg = row.number("lon_deg"),
             .height_m = row.number("h_m")};
+}
+
+/// By the row's column `body`; throws on a name that is none.
+inline server::ephemeris::Body body_of(const CsvRow& row) {
+    const std::string& name = row.text("body");
+    for (const server::ephemeris::Body body : server::ephemeris::kBodies) {
+        if (server::ephemeris::name_of(body) == name) return body;
+    }
+    throw std::runtime_error("no body: " + name);
 }
 
 /// Largest and root mean square of what is added.
