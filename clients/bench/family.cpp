@@ -10,13 +10,16 @@
 #include <stdexcept>
 #include <thread>
 
+#include "clients/bench/ephemeris_family.h"
 #include "clients/bench/wire_family.h"
 
 namespace skyig::clients::bench {
 
 namespace {
 
-constexpr std::array<Family, 1> kFamilies{{
+constexpr std::array<Family, 2> kFamilies{{
+    {"ephemeris", "places of Sun, Moon and planets", measure_ephemeris_errors, ephemeris_contenders,
+     ephemeris_floor},
     {"wire", "CIGI in both versions and byte orders", measure_wire_errors, wire_contenders, wire_floor},
 }};
 

@@ -31,21 +31,21 @@ std::string to_text(const Report& report) {
     fmt::format_to(out, "{}: {}\ncases  {}\ntruth  {}\nfloor  {}: {} ns\n", report.family, report.title,
                    report.cases, report.truth, report.floor, short_number(report.floor_ns.median));
     fmt::format_to(out, "on     {}, {} rounds\n", report.machine, report.rounds);
-    fmt::format_to(out, "\n{:<10} {:<14} {:<12} {:>10} {:>10} {:>10} {:>6}  unit\n", "model", "quantity",
+    fmt::format_to(out, "\n{:<15} {:<15} {:<26} {:>10} {:>10} {:>10} {:>6}  unit\n", "model", "quantity",
                    "cases", "max", "rms", "p95", "count");
     for (const ModelEntry& model : report.models) {
         for (const ErrorEntry& error : model.errors) {
-            fmt::format_to(out, "{:<10} {:<14} {:<12} {:>10} {:>10} {:>10} {:>6}  {}\n", model.name,
+            fmt::format_to(out, "{:<15} {:<15} {:<26} {:>10} {:>10} {:>10} {:>6}  {}\n", model.name,
                            error.quantity, error.cases, short_number(error.figures.max),
                            short_number(error.figures.rms), short_number(error.figures.p95),
                            error.figures.count, error.unit);
         }
     }
-    fmt::format_to(out, "\n{:<10} {:<14} {:>10} {:>10} {:>10} {:>10} {:>12}\n", "model", "cost", "ns", "p25",
+    fmt::format_to(out, "\n{:<15} {:<15} {:>10} {:>10} {:>10} {:>10} {:>12}\n", "model", "cost", "ns", "p25",
                    "p75", "floors", "instructions");
     for (const ModelEntry& model : report.models) {
         for (const CostEntry& cost : model.costs) {
-            fmt::format_to(out, "{:<10} {:<14} {:>10} {:>10} {:>10} {:>10} {:>12}\n", model.name, cost.name,
+            fmt::format_to(out, "{:<15} {:<15} {:>10} {:>10} {:>10} {:>10} {:>12}\n", model.name, cost.name,
                            short_number(cost.ns.median), short_number(cost.ns.p25), short_number(cost.ns.p75),
                            short_number(cost.floors.median),
                            cost.instructions ? fmt::format("{:.0f}", *cost.instructions) : "-");

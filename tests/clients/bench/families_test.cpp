@@ -68,6 +68,39 @@ TEST(Families, WireMessagesSurviveReadingAndWriting) {
     }
 }
 
+TEST(Families, EphemerisModelsStandOnALadder) {
+    const Report report = find_family("ephemeris")->measure_errors(kTruth);
+    ASSERT_EQ(report.models.size(), 3U);
+    double coarser_arcsec = 3600.0;
+    for (const ModelEntry& model : report.models) {
+        const double max_arcsec = find_error(model, "all bodies", "1900-2100")->figures.max;
+        EXPECT_LT(max_arcsec, coarser_arcsec) << model.name;
+        coarser_arcsec = max_arcsec;
+        for (const char* body : {"sun", "moon", "mercury", "venus", "mars", "jupiter", "saturn"}) {
+            const ErrorEntry* inner = find_error(model, body, "1950-2050");
+            const ErrorEntry* whole = find_error(model, body, "1900-2100");
+            ASSERT_TRUE(inner != nullptr && whole != nullptr);
+            EXPECT_LE(inner->figures.max, whole->figures.max);
+            EXPECT_LT(inner->figures.count, whole->figures.count);
+            EXPECT_LE(whole->figures.rms, whole->figures.max);
+        }
+    }
+    const ModelEntry& series = report.models.back();
+    EXPECT_LE(find_error(series, "sun", "1900-2100")->figures.max, 0.1);
+    EXPECT_LE(find_error(series, "moon", "1900-2100")->figures.max, 0.6);
+    for (const char* planet : {"mercury", "venus", "mars", "jupiter", "saturn"})
+        EXPECT_LE(find_error(series, planet, "1900-2100")->figures.max, 1.5) << planet;
+}
+
+TEST(Families, AMissingTruthTableIsNamed) {
+    try {
+        (void)find_family("ephemeris")->measure_errors("nowhere");
+        ADD_FAILURE();
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("nowhere/ephemeris/geo_truth.csv"), std::string::npos);
+    }
+}
+
 TEST(Families, CountedCallsAreToldInTheOrderTheyAreMade) {
     const Family& family = *find_family("wire");
     const std::string lines = make_counted_calls(family, 3);
