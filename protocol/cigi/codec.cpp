@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "protocol/cigi/counters.h"
 #include "protocol/cigi/layout.h"
@@ -19,9 +18,8 @@ constexpr std::uint8_t kMinor40 = 0;
 
 /// 3.3 sends 100 octets of text at most, the NUL included; 4.0 what its 16-bit size can say.
 constexpr std::size_t kMaxText33 = 99;
+constexpr std::size_t kMaxTextPacket33 = 104;
 constexpr std::size_t kMaxPacket40 = 65528;
-
-constexpr std::size_t kNoPacket = std::numeric_limits<std::size_t>::max();
 
 template <std::size_t First, std::size_t... I>
 constexpr std::array<Shape, sizeof...(I)> shapes(Version version, std::index_sequence<I...> /*kinds*/) {
@@ -31,11 +29,6 @@ using AllKinds = std::make_index_sequence<kPacketKinds>;
 using HostKinds = std::make_index_sequence<kHostPacketKinds>;
 using IgKinds = std::make_index_sequence<kPacketKinds - kHostPacketKinds>;
 
-constexpr auto kHostShapes33 = shapes<0>(Version::k33, HostKinds{});
-constexpr auto kHostShapes40 = shapes<0>(Version::k40, HostKinds{});
-constexpr auto kIgShapes33 = shapes<kHostPacketKinds>(Version::k33, IgKinds{});
-constexpr auto kIgShapes40 = shapes<kHostPacketKinds>(Version::k40, IgKinds{});
-
 template <std::size_t... I>
 constexpr bool all_sound(std::index_sequence<I...> /*kinds*/) {
     return ((layout_is_sound<std::tuple_element_t<I, AllPackets>>(Version::k33) &&
@@ -44,35 +37,41 @@ constexpr bool all_sound(std::index_sequence<I...> /*kinds*/) {
 }
 static_assert(all_sound(AllKinds{}), "a field lies outside its packet, unaligned, or over another one");
 
+/// From id to the packet's place in `shapes` in one look; no two ids of one direction and version fold alike.
 template <std::size_t N>
-constexpr bool ids_differ(const std::array<Shape, N>& shapes) {
-    for (std::size_t i = 0; i < N; ++i) {
-        for (std::size_t j = i + 1; j < N; ++j) {
-            if (shapes[i].size > 0 && shapes[j].size > 0 && shapes[i].id == shapes[j].id) return false;
+class KindOfId {
+  public:
+    explicit constexpr KindOfId(const std::array<Shape, N>& shapes) noexcept : shapes_(shapes) {
+        for (std::size_t i = 0; i < N; ++i) {
+            if (shapes[i].size == 0) continue;
+            std::uint8_t& slot = slots_[folded(shapes[i].id)];
+            distinct_ = distinct_ && slot == 0;
+            slot = static_cast<std::uint8_t>(i + 1);
         }
     }
-    return true;
-}
-static_assert(ids_differ(kHostShapes33) && ids_differ(kHostShapes40));
-static_assert(ids_differ(kIgShapes33) && ids_differ(kIgShapes40));
-
-template <std::size_t N>
-std::size_t find_id(const std::array<Shape, N>& shapes, std::uint16_t id) noexcept {
-    for (std::size_t i = 0; i < N; ++i) {
-        if (shapes[i].id == id && shapes[i].size > 0) return i;
+    [[nodiscard]] constexpr bool distinct() const noexcept { return distinct_; }
+    [[nodiscard]] std::optional<std::size_t> find(std::uint16_t id) const noexcept {
+        const std::size_t slot = slots_[folded(id)];
+        if (slot == 0 || shapes_[slot - 1].id != id) return std::nullopt;
+        return slot - 1;
     }
-    return kNoPacket;
-}
 
-/// What stands on the wire for a T: the type itself, an enumeration's underlying type.
-template <class T, bool IsEnum = std::is_enum_v<T>>
-struct Raw {
-    using Type = T;
+  private:
+    [[nodiscard]] static constexpr std::size_t folded(std::uint16_t id) noexcept {
+        return (id ^ (id >> 8U)) & 0xFFU;
+    }
+
+    std::array<Shape, N> shapes_;
+    std::array<std::uint8_t, 256> slots_{};  // 0: none
+    bool distinct_ = true;
 };
-template <class T>
-struct Raw<T, true> {
-    using Type = std::underlying_type_t<T>;
-};
+
+constexpr KindOfId kHostKinds33(shapes<0>(Version::k33, HostKinds{}));
+constexpr KindOfId kHostKinds40(shapes<0>(Version::k40, HostKinds{}));
+constexpr KindOfId kIgKinds33(shapes<kHostPacketKinds>(Version::k33, IgKinds{}));
+constexpr KindOfId kIgKinds40(shapes<kHostPacketKinds>(Version::k40, IgKinds{}));
+static_assert(kHostKinds33.distinct() && kHostKinds40.distinct() && kIgKinds33.distinct() &&
+              kIgKinds40.distinct());
 
 constexpr unsigned mask_of(const Place& place) noexcept {
     return (1U << place.bits) - 1U;
@@ -86,6 +85,17 @@ std::string_view text_at(std::span<const std::byte> bytes, std::size_t offset) n
 
 std::string_view fitting(std::string_view text, Version version, std::size_t offset) noexcept {
     return text.substr(0, version == Version::k33 ? kMaxText33 : kMaxPacket40 - offset - 1);
+}
+
+/// A text need be neither padded nor ended by a NUL: senders exist that do neither.
+template <class P>
+bool fits(std::size_t bytes, Version version) noexcept {
+    const std::size_t size = shape_of<P>(version).size;
+    if constexpr (has_text<P>()) {
+        return bytes >= size && bytes <= (version == Version::k33 ? kMaxTextPacket33 : kMaxPacket40);
+    } else {
+        return size > 0 && bytes == size;
+    }
 }
 
 template <class P, Version V, ByteOrder Order, std::size_t I>
@@ -187,15 +197,14 @@ PacketHeader read_header(const std::byte* bytes, Version version, ByteOrder orde
 }
 
 std::optional<std::size_t> host_packet_kind(Version version, std::uint16_t id) noexcept {
-    const std::size_t found = find_id(version == Version::k33 ? kHostShapes33 : kHostShapes40, id);
-    if (found == kNoPacket) return std::nullopt;
-    return found;
+    return version == Version::k33 ? kHostKinds33.find(id) : kHostKinds40.find(id);
 }
 
 std::optional<std::size_t> ig_packet_kind(Version version, std::uint16_t id) noexcept {
-    const std::size_t found = find_id(version == Version::k33 ? kIgShapes33 : kIgShapes40, id);
-    if (found == kNoPacket) return std::nullopt;
-    return kHostPacketKinds + found;
+    const std::optional<std::size_t> found =
+        version == Version::k33 ? kIgKinds33.find(id) : kIgKinds40.find(id);
+    if (!found) return std::nullopt;
+    return kHostPacketKinds + *found;
 }
 
 std::string_view packet_name(std::size_t kind) noexcept {
@@ -205,8 +214,7 @@ std::string_view packet_name(std::size_t kind) noexcept {
 
 template <class P>
 bool read_packet(std::span<const std::byte> bytes, Version version, ByteOrder order, P& packet) noexcept {
-    const std::size_t size = shape_of<P>(version).size;
-    if (size == 0 || bytes.size() < size || (bytes.size() != size && !has_text<P>())) return false;
+    if (!fits<P>(bytes.size(), version)) return false;
     with_constants(version, order, [&](auto v, auto o) {
         read_fields<P, decltype(v)::value, decltype(o)::value>(bytes, packet,
                                                                std::make_index_sequence<kFieldCount<P>>{});
@@ -240,37 +248,14 @@ void write_packet(const P& packet, Version version, ByteOrder order, std::byte* 
     });
 }
 
-// A type of AllPackets that is missing here shows as an undefined reference. The argument is a type, so no
-// parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
-#define SKYIG_CIGI_PACKET(P)                                                                   \
+// The argument is a type, so no parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
+#define SKYIG_CIGI_INSTANTIATE(P)                                                              \
     template bool read_packet<P>(std::span<const std::byte>, Version, ByteOrder, P&) noexcept; \
     template std::size_t packet_bytes<P>(const P&, Version) noexcept;                          \
     template void write_packet<P>(const P&, Version, ByteOrder, std::byte*) noexcept;
-SKYIG_CIGI_PACKET(IgControl)
-SKYIG_CIGI_PACKET(EntityControl)
-SKYIG_CIGI_PACKET(EntityPosition)
-SKYIG_CIGI_PACKET(ComponentControl)
-SKYIG_CIGI_PACKET(ShortComponentControl)
-SKYIG_CIGI_PACKET(CelestialSphereControl)
-SKYIG_CIGI_PACKET(AtmosphereControl)
-SKYIG_CIGI_PACKET(EnvRegionControl)
-SKYIG_CIGI_PACKET(WeatherControl)
-SKYIG_CIGI_PACKET(ViewControl)
-SKYIG_CIGI_PACKET(ViewDefinition)
-SKYIG_CIGI_PACKET(HatHotRequest)
-SKYIG_CIGI_PACKET(PositionRequest)
-SKYIG_CIGI_PACKET(EnvConditionsRequest)
-SKYIG_CIGI_PACKET(StartOfFrame)
-SKYIG_CIGI_PACKET(HatHotResponse)
-SKYIG_CIGI_PACKET(HatHotExtendedResponse)
-SKYIG_CIGI_PACKET(PositionResponse)
-SKYIG_CIGI_PACKET(WeatherConditionsResponse)
-SKYIG_CIGI_PACKET(AerosolResponse)
-SKYIG_CIGI_PACKET(MaritimeSurfaceResponse)
-SKYIG_CIGI_PACKET(TerrestrialSurfaceResponse)
-SKYIG_CIGI_PACKET(EventNotification)
-SKYIG_CIGI_PACKET(IgMessage)
-#undef SKYIG_CIGI_PACKET
+SKYIG_CIGI_HOST_PACKETS(SKYIG_CIGI_INSTANTIATE)
+SKYIG_CIGI_IG_PACKETS(SKYIG_CIGI_INSTANTIATE)
+#undef SKYIG_CIGI_INSTANTIATE
 // NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace skyig::protocol::cigi

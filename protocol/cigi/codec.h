@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include "protocol/cigi/packets.h"
+#include "protocol/cigi/packet_list.h"
 #include "protocol/cigi/wire.h"
 
 namespace skyig::protocol::cigi {

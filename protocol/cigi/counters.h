@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "protocol/cigi/packets.h"
+#include "protocol/cigi/packet_list.h"
 
 namespace skyig::protocol::cigi {
 

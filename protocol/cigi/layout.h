@@ -40,6 +40,16 @@ struct Shape {
     std::uint16_t size = 0;
 };
 
+/// What stands on the wire for a T: the type itself, an enumeration's underlying type.
+template <class T, bool IsEnum = std::is_enum_v<T>>
+struct Raw {
+    using Type = T;
+};
+template <class T>
+struct Raw<T, true> {
+    using Type = std::underlying_type_t<T>;
+};
+
 struct Range {
     enum class Kind : std::uint8_t {
         kAny,
@@ -48,7 +58,8 @@ struct Range {
         kPositive,  // above 0
         kPercent,   // clamped to 0..100
         kHalfTurn,  // degrees, wrapped to -180..180
-        kFullTurn   // degrees, wrapped to 0..360
+        kFullTurn,  // degrees, wrapped to 0..360
+        kTwoTurns   // degrees, wrapped to -360..360
     };
     Kind kind = Kind::kAny;
     double low = 0.0;
@@ -84,6 +95,7 @@ struct Field {
     [[nodiscard]] constexpr Field latitude() const noexcept { return between(-90.0, 90.0); }
     [[nodiscard]] constexpr Field half_turn() const noexcept { return with({Range::Kind::kHalfTurn}); }
     [[nodiscard]] constexpr Field full_turn() const noexcept { return with({Range::Kind::kFullTurn}); }
+    [[nodiscard]] constexpr Field two_turns() const noexcept { return with({Range::Kind::kTwoTurns}); }
     [[nodiscard]] constexpr Field when(bool (*condition)(const P&)) const noexcept {
         Field field = *this;
         field.counts = condition;

@@ -87,6 +87,36 @@ struct Layout<EntityPosition> {
 };
 
 template <>
+struct Layout<ConformalClamped> {
+    static constexpr std::string_view kName = "conformal_clamped";
+    static constexpr Shape k33{3, 24};
+    static constexpr Shape k40{0x0002, 32};
+    static constexpr auto kFields =
+        std::make_tuple(field("entity_id", &ConformalClamped::entity_id, at(2), at(4)),
+                        field("yaw", &ConformalClamped::yaw, at(4), at(8)).full_turn(),
+                        field("latitude", &ConformalClamped::latitude, at(8), at(16)).latitude(),
+                        field("longitude", &ConformalClamped::longitude, at(16), at(24)).half_turn());
+};
+
+template <>
+struct Layout<RateControl> {
+    static constexpr std::string_view kName = "rate_control";
+    static constexpr Shape k33{8, 32};
+    static constexpr Shape k40{0x0007, 32};
+    static constexpr auto kFields = std::make_tuple(
+        field("entity_id", &RateControl::entity_id, at(2), at(4)),
+        field("part_id", &RateControl::part_id, at(4), at(6)),
+        field("apply_to_part", &RateControl::apply_to_part, bits(5, 0, 1), bits(7, 0, 1)),
+        field("coordinate_system", &RateControl::coordinate_system, bits(5, 1, 1), bits(7, 1, 1)),
+        field("x_rate", &RateControl::x_rate, at(8), at(8)),
+        field("y_rate", &RateControl::y_rate, at(12), at(12)),
+        field("z_rate", &RateControl::z_rate, at(16), at(16)),
+        field("roll_rate", &RateControl::roll_rate, at(20), at(20)),
+        field("pitch_rate", &RateControl::pitch_rate, at(24), at(24)),
+        field("yaw_rate", &RateControl::yaw_rate, at(28), at(28)));
+};
+
+template <>
 struct Layout<ComponentControl> {
     static constexpr std::string_view kName = "component_control";
     static constexpr Shape k33{4, 32};
@@ -229,6 +259,56 @@ struct Layout<WeatherControl> {
 };
 
 template <>
+struct Layout<MaritimeSurfaceControl> {
+    static constexpr std::string_view kName = "maritime_surface_control";
+    static constexpr Shape k33{13, 24};
+    static constexpr Shape k40{0x000C, 24};
+    /// One sender of 4.0 puts entity_region_id at byte 5. That cannot be told from a reserved byte left
+    /// dirty, so it is not mended.
+    static constexpr auto kFields = std::make_tuple(
+        field("entity_region_id", &MaritimeSurfaceControl::entity_region_id, at(2), at(6)),
+        field("enable", &MaritimeSurfaceControl::enable, bits(4, 0, 1), bits(4, 0, 1)),
+        field("whitecap_enable", &MaritimeSurfaceControl::whitecap_enable, bits(4, 1, 1), bits(4, 1, 1)),
+        field("scope", &MaritimeSurfaceControl::scope, bits(4, 2, 2), bits(4, 2, 2)).up_to(2),
+        field("sea_surface_height", &MaritimeSurfaceControl::sea_surface_height, at(8), at(8)),
+        field("water_temperature", &MaritimeSurfaceControl::water_temperature, at(12), at(12)),
+        field("clarity", &MaritimeSurfaceControl::clarity, at(16), at(16)).percent());
+};
+
+template <>
+struct Layout<WaveControl> {
+    static constexpr std::string_view kName = "wave_control";
+    static constexpr Shape k33{14, 32};
+    static constexpr Shape k40{0x000D, 32};
+    static constexpr auto kFields = std::make_tuple(
+        field("entity_region_id", &WaveControl::entity_region_id, at(2), at(6)),
+        field("wave_id", &WaveControl::wave_id, at(4), at(4)),
+        field("wave_enable", &WaveControl::wave_enable, bits(5, 0, 1), bits(5, 0, 1)),
+        field("scope", &WaveControl::scope, bits(5, 1, 2), bits(5, 1, 2)).up_to(2),
+        field("breaker_type", &WaveControl::breaker_type, bits(5, 3, 2), bits(5, 3, 2)).up_to(2),
+        field("height", &WaveControl::height, at(8), at(8)).not_negative(),
+        field("wavelength", &WaveControl::wavelength, at(12), at(12)).not_negative(),
+        field("period", &WaveControl::period, at(16), at(16)).not_negative(),
+        field("direction", &WaveControl::direction, at(20), at(20)).full_turn(),
+        field("phase_offset", &WaveControl::phase_offset, at(24), at(24)).two_turns(),
+        field("leading", &WaveControl::leading, at(28), at(28)).half_turn());
+};
+
+template <>
+struct Layout<TerrestrialSurfaceControl> {
+    static constexpr std::string_view kName = "terrestrial_surface_control";
+    static constexpr Shape k33{15, 8};
+    static constexpr Shape k40{0x000E, 16};
+    static constexpr auto kFields = std::make_tuple(
+        field("entity_region_id", &TerrestrialSurfaceControl::entity_region_id, at(2), at(4)),
+        field("condition_id", &TerrestrialSurfaceControl::condition_id, at(4), at(8)),
+        field("enable", &TerrestrialSurfaceControl::enable, bits(6, 0, 1), bits(6, 0, 1)),
+        field("scope", &TerrestrialSurfaceControl::scope, bits(6, 1, 2), bits(6, 1, 2)).up_to(2),
+        field("severity", &TerrestrialSurfaceControl::severity, bits(6, 3, 5), bits(6, 3, 5)),
+        field("coverage", &TerrestrialSurfaceControl::coverage, at(7), at(7)).percent());
+};
+
+template <>
 struct Layout<ViewControl> {
     static constexpr std::string_view kName = "view_control";
     static constexpr Shape k33{16, 32};
@@ -290,6 +370,21 @@ struct Layout<ViewDefinition> {
         field("bottom", &ViewDefinition::bottom, at(28), at(32))
             .between(-90.0, 90.0)
             .enabled_by<&ViewDefinition::bottom_enable>());
+};
+
+template <>
+struct Layout<EarthModelDefinition> {
+    static constexpr std::string_view kName = "earth_model_definition";
+    static constexpr Shape k33{19, 24};
+    static constexpr Shape k40{0x0012, 24};
+    static constexpr auto kFields = std::make_tuple(
+        field("custom_enable", &EarthModelDefinition::custom_enable, bits(2, 0, 1), bits(4, 0, 1)),
+        field("equatorial_radius", &EarthModelDefinition::equatorial_radius, at(8), at(8))
+            .positive()
+            .enabled_by<&EarthModelDefinition::custom_enable>(),
+        field("flattening", &EarthModelDefinition::flattening, at(16), at(16))
+            .below(1.0)
+            .enabled_by<&EarthModelDefinition::custom_enable>());
 };
 
 template <>

@@ -12,7 +12,7 @@
 
 #include "protocol/cigi/codec.h"
 #include "protocol/cigi/counters.h"
-#include "protocol/cigi/packets.h"
+#include "protocol/cigi/packet_list.h"
 #include "protocol/cigi/validate.h"
 #include "protocol/cigi/wire.h"
 
@@ -29,7 +29,7 @@ struct PacketInfo {
     std::span<const std::byte> bytes;  // the packet with its header
 };
 
-/// A packet that validation refused.
+/// A known packet that was not handed on. `field` is empty if the fault is no field's.
 struct RefusedPacket {
     std::size_t kind = 0;  // index in AllPackets
     Count reason = Count::kOutOfRange;
@@ -76,11 +76,19 @@ void deliver(Handler& handler, const P& packet, const PacketInfo& info) {
     }
 }
 
+template <class Handler>
+void pass_over(Handler& handler, std::size_t kind, Count reason, const PacketInfo& info, Counters& counters) {
+    ++counters[reason];
+    if constexpr (requires { handler.passed_over(RefusedPacket{}, info); }) {
+        handler.passed_over(RefusedPacket{kind, reason, {}}, info);
+    }
+}
+
 template <class P, class Handler>
 void decode_packet(const PacketInfo& info, Handler& handler, Counters& counters, Validation validation) {
     P packet;
     if (!read_packet(info.bytes, info.version, info.order, packet)) {
-        ++counters[Count::kWrongSize];
+        pass_over(handler, kPacketKind<P>, Count::kWrongSize, info, counters);
         return;
     }
     if (validation == Validation::kOn) {
@@ -125,7 +133,7 @@ MessageSummary decode_message(std::span<const std::byte> bytes, MessageSummary s
             ++counters[Count::kSkipped];
             if constexpr (requires { handler.skipped(info); }) handler.skipped(info);
         } else if (*kind == First && info.offset != 0) {
-            ++counters[duplicate];
+            pass_over(handler, *kind, duplicate, info, counters);
         } else {
             decode_kind<First>(*kind, info, handler, counters, validation, std::make_index_sequence<Kinds>{});
         }
@@ -139,8 +147,8 @@ MessageSummary decode_message(std::span<const std::byte> bytes, MessageSummary s
 /// Reads a host-to-IG datagram. For each good packet P calls `handler(const P&, const PacketInfo&)` or
 /// `handler(const P&)`, whichever exists; a kind without overload is counted and passed over. If the handler
 /// has them, `handler.skipped(const PacketInfo&)` gets the unknown ids and `handler.refused(const
-/// RefusedPacket&, const PacketInfo&)` the refused ones. IG Control, if it is good, comes first and only
-/// once.
+/// RefusedPacket&, const PacketInfo&)` those that validation refused, `handler.passed_over(...)` those of a
+/// wrong size and a second IG Control. IG Control, if it is good, comes first and only once.
 template <class Handler>
 MessageSummary decode_host_message(std::span<const std::byte> bytes, Handler&& handler, Counters& counters,
                                    Validation validation = Validation::kOn) {

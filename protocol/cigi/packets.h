@@ -7,12 +7,8 @@
 // Field names are those of the interface tables, so they carry no unit suffix.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string_view>
-#include <tuple>
-#include <type_traits>
-#include <utility>
 
 namespace skyig::protocol::cigi {
 
@@ -23,6 +19,7 @@ enum class EntityState : std::uint8_t { kInactive = 0, kActive = 1, kDestroyed =
 enum class GroundClamp : std::uint8_t { kNone = 0, kNonConformal = 1, kConformal = 2 };
 enum class RegionState : std::uint8_t { kInactive = 0, kActive = 1, kDestroyed = 2 };
 enum class WeatherScope : std::uint8_t { kGlobal = 0, kRegional = 1, kEntity = 2 };
+enum class BreakerType : std::uint8_t { kPlunging = 0, kSpilling = 1, kSurging = 2 };
 enum class HatHotType : std::uint8_t { kHat = 0, kHot = 1, kExtended = 2 };
 
 /// 11..15 are the image generator's own.
@@ -122,6 +119,28 @@ struct EntityPosition {
     double alt_z = 0.0;
 };
 
+/// Place of an entity that follows the terrain by itself: height, pitch and roll are the image generator's.
+struct ConformalClamped {
+    std::uint16_t entity_id = 0;
+    float yaw = 0.0F;
+    double latitude = 0.0;
+    double longitude = 0.0;
+};
+
+/// Velocities by which the image generator extrapolates (Velocity Control in 4.0); they stay until replaced.
+struct RateControl {
+    std::uint16_t entity_id = 0;
+    std::uint8_t part_id = 0;
+    bool apply_to_part = false;      // false: to the entity as a whole
+    bool coordinate_system = false;  // true: the entity's own axes; false: north-east-down or the parent's
+    float x_rate = 0.0F;             // m/s
+    float y_rate = 0.0F;
+    float z_rate = 0.0F;
+    float roll_rate = 0.0F;  // deg/s
+    float pitch_rate = 0.0F;
+    float yaw_rate = 0.0F;
+};
+
 struct ComponentControl {
     std::uint16_t component_id = 0;
     std::uint16_t instance_id = 0;
@@ -218,6 +237,39 @@ struct WeatherControl {
     float top_transition_band = 0.0F;  // [4.0]
 };
 
+struct MaritimeSurfaceControl {
+    std::uint16_t entity_region_id = 0;
+    bool enable = false;
+    bool whitecap_enable = false;
+    WeatherScope scope = WeatherScope::kGlobal;
+    float sea_surface_height = 0.0F;
+    float water_temperature = 0.0F;
+    float clarity = 0.0F;
+};
+
+struct WaveControl {
+    std::uint16_t entity_region_id = 0;
+    std::uint8_t wave_id = 0;
+    bool wave_enable = false;
+    WeatherScope scope = WeatherScope::kGlobal;
+    BreakerType breaker_type = BreakerType::kPlunging;
+    float height = 0.0F;
+    float wavelength = 0.0F;
+    float period = 0.0F;
+    float direction = 0.0F;
+    float phase_offset = 0.0F;
+    float leading = 0.0F;
+};
+
+struct TerrestrialSurfaceControl {
+    std::uint16_t entity_region_id = 0;
+    std::uint16_t condition_id = 0;  // 0 dry, others own
+    bool enable = false;
+    WeatherScope scope = WeatherScope::kGlobal;
+    std::uint8_t severity = 0;  // 0..31
+    std::uint8_t coverage = 0;
+};
+
 struct ViewControl {
     std::uint16_t view_id = 0;  // ignored when group_id != 0
     std::uint8_t group_id = 0;
@@ -257,6 +309,13 @@ struct ViewDefinition {
     float right = 0.0F;
     float top = 0.0F;
     float bottom = 0.0F;
+};
+
+/// The values count only while `custom_enable`; else the Earth is WGS 84.
+struct EarthModelDefinition {
+    bool custom_enable = false;
+    double equatorial_radius = 6378137.0;
+    double flattening = 1.0 / 298.257223563;  // (a - b) / a
 };
 
 struct HatHotRequest {
@@ -379,34 +438,5 @@ struct IgMessage {
     std::uint16_t message_id = 0;
     std::string_view text;
 };
-
-// ---- The lists of all packets; a packet's index in AllPackets is its kind in counters and names.
-
-using HostPackets =
-    std::tuple<IgControl, EntityControl, EntityPosition, ComponentControl, ShortComponentControl,
-               CelestialSphereControl, AtmosphereControl, EnvRegionControl, WeatherControl, ViewControl,
-               ViewDefinition, HatHotRequest, PositionRequest, EnvConditionsRequest>;
-using IgPackets = std::tuple<StartOfFrame, HatHotResponse, HatHotExtendedResponse, PositionResponse,
-                             WeatherConditionsResponse, AerosolResponse, MaritimeSurfaceResponse,
-                             TerrestrialSurfaceResponse, EventNotification, IgMessage>;
-using AllPackets = decltype(std::tuple_cat(std::declval<HostPackets>(), std::declval<IgPackets>()));
-
-inline constexpr std::size_t kHostPacketKinds = std::tuple_size_v<HostPackets>;
-inline constexpr std::size_t kPacketKinds = std::tuple_size_v<AllPackets>;
-
-namespace detail {
-template <class P, std::size_t I = 0>
-[[nodiscard]] constexpr std::size_t kind_of() noexcept {
-    static_assert(I < kPacketKinds, "not a CIGI packet of this library");
-    if constexpr (std::is_same_v<P, std::tuple_element_t<I, AllPackets>>) {
-        return I;
-    } else {
-        return kind_of<P, I + 1>();
-    }
-}
-}  // namespace detail
-
-template <class P>
-inline constexpr std::size_t kPacketKind = detail::kind_of<P>();
 
 }  // namespace skyig::protocol::cigi

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "protocol/cigi/layout.h"
 #include "protocol/cigi/layout_host.h"
@@ -23,17 +27,89 @@ Verdict refuse(Count reason, std::string_view field) noexcept {
     return {false, false, reason, field};
 }
 
-/// Brings an angle into [-180, 180] or [0, 360] if it is outside; false if it is no angle.
+struct Bounds {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+/// Where an angle may stay as it came.
+constexpr Bounds turn_bounds(Range::Kind kind) noexcept {
+    if (kind == Range::Kind::kFullTurn) return {0.0, kTurn};
+    if (kind == Range::Kind::kTwoTurns) return {-kTurn, kTurn};
+    return {-kTurn / 2, kTurn / 2};
+}
+
+/// Brings an angle into its bounds if it is outside; false if it is no angle.
 template <class T>
-bool wrap(T& angle, bool full_turn) noexcept {
+bool wrap(T& angle, Range::Kind kind) noexcept {
     const double value = static_cast<double>(angle);
     if (std::abs(value) > kLargestAngle) return false;
-    const double low = full_turn ? 0.0 : -kTurn / 2;
-    if (value >= low && value <= low + kTurn) return true;
+    const Bounds bounds = turn_bounds(kind);
+    if (value >= bounds.low && value <= bounds.high) return true;
     double wrapped = std::remainder(value, kTurn);
-    if (full_turn && wrapped < 0.0) wrapped += kTurn;
+    if (wrapped < bounds.low) wrapped += kTurn;
     angle = static_cast<T>(wrapped);
     return true;
+}
+
+/// What a value may be without anything to do about it.
+template <class T>
+constexpr Bounds plain_bounds(const Range& range) noexcept {
+    const double largest = static_cast<double>(std::numeric_limits<T>::max());
+    const double smallest = static_cast<double>(std::numeric_limits<T>::lowest());
+    switch (range.kind) {
+        case Range::Kind::kAny:
+            return {smallest, largest};
+        case Range::Kind::kClosed:
+        case Range::Kind::kHalfOpen:
+            return {range.low > smallest ? range.low : smallest, range.high < largest ? range.high : largest};
+        case Range::Kind::kPositive:
+            return {0.0, largest};
+        case Range::Kind::kPercent:
+            return {0.0, 100.0};
+        case Range::Kind::kHalfTurn:
+        case Range::Kind::kFullTurn:
+        case Range::Kind::kTwoTurns:
+            break;
+    }
+    return turn_bounds(range.kind);
+}
+
+/// True if the value is finite and in its range. No branches: nearly all values of nearly all packets are.
+template <class P, Version V, std::size_t I>
+bool field_is_plain(const P& packet) noexcept {
+    constexpr const auto& kField = std::get<I>(Layout<P>::kFields);
+    using Value = typename std::decay_t<decltype(kField)>::Value;
+    if constexpr (!kField.place(V).present || std::is_same_v<Value, bool> ||
+                  std::is_same_v<Value, std::string_view>) {
+        return true;
+    } else if constexpr (std::is_floating_point_v<Value>) {
+        constexpr Bounds kBounds = plain_bounds<Value>(kField.range);
+        constexpr auto kLow = static_cast<Value>(kBounds.low);
+        constexpr auto kHigh = static_cast<Value>(kBounds.high);
+        const Value value = packet.*(kField.member);
+        const bool above = kField.range.kind == Range::Kind::kPositive ? value > kLow : value >= kLow;
+        const bool below = kField.range.kind == Range::Kind::kHalfOpen ? value < kHigh : value <= kHigh;
+        return above & below;
+    } else {
+        using Number = typename Raw<Value>::Type;
+        constexpr Bounds kBounds = plain_bounds<Number>(kField.range);
+        const auto value = static_cast<std::int64_t>(static_cast<Number>(packet.*(kField.member)));
+        return (value >= static_cast<std::int64_t>(kBounds.low)) &
+               (value <= static_cast<std::int64_t>(kBounds.high));
+    }
+}
+
+template <class P, Version V, std::size_t... I>
+bool all_plain(const P& packet, std::index_sequence<I...> /*fields*/) noexcept {
+    return (field_is_plain<P, V, I>(packet) & ...);
+}
+
+template <class P>
+bool is_plain(const P& packet, Version version) noexcept {
+    constexpr std::make_index_sequence<kFieldCount<P>> kFields;
+    return version == Version::k33 ? all_plain<P, Version::k33>(packet, kFields)
+                                   : all_plain<P, Version::k40>(packet, kFields);
 }
 
 /// Applies the range of one field; false if the value is out of it.
@@ -59,7 +135,8 @@ bool apply(const Range& range, T& value, bool& clamped) noexcept {
                 return true;
             case Kind::kHalfTurn:
             case Kind::kFullTurn:
-                if constexpr (std::is_floating_point_v<T>) return wrap(value, range.kind == Kind::kFullTurn);
+            case Kind::kTwoTurns:
+                if constexpr (std::is_floating_point_v<T>) return wrap(value, range.kind);
                 return true;
         }
     }
@@ -84,11 +161,19 @@ void check(P& packet, const Field<P, T>& field, Verdict& verdict) noexcept {
         verdict = refuse(Count::kOutOfRange, field.name);
 }
 
+/// Field by field, for a packet in which not all is plain.
+template <class P>
+void check_fields(P& packet, Version version, Verdict& verdict) noexcept {
+    for_each_field<P>([&](const auto& field) {
+        if (verdict.accepted && field.place(version).present) check(packet, field, verdict);
+    });
+}
+
 template <class P>
 void check_geodetic(P& packet, Verdict& verdict) noexcept {
     if (packet.lat_x < -90.0 || packet.lat_x > 90.0) {
         verdict = refuse(Count::kOutOfRange, "lat_x");
-    } else if (!wrap(packet.lon_y, false)) {
+    } else if (!wrap(packet.lon_y, Range::Kind::kHalfTurn)) {
         verdict = refuse(Count::kOutOfRange, "lon_y");
     }
 }
@@ -156,6 +241,17 @@ void check_together(WeatherControl& packet, Version version, Verdict& /*verdict*
     packet.top_transition_band = packet.transition_band;
 }
 
+/// A wave that is switched off may have no size.
+template <>
+void check_together(WaveControl& packet, Version /*version*/, Verdict& verdict) noexcept {
+    if (!packet.wave_enable) return;
+    if (packet.wavelength <= 0.0F) {
+        verdict = refuse(Count::kOutOfRange, "wavelength");
+    } else if (packet.period <= 0.0F) {
+        verdict = refuse(Count::kOutOfRange, "period");
+    }
+}
+
 template <>
 void check_together(ViewDefinition& packet, Version /*version*/, Verdict& verdict) noexcept {
     if (packet.left_enable && packet.right_enable && packet.left >= packet.right) {
@@ -195,41 +291,16 @@ template <class P>
 Verdict validate(P& packet, Version version) noexcept {
     Verdict verdict;
     prepare(packet);
-    for_each_field<P>([&](const auto& field) {
-        if (verdict.accepted && field.place(version).present) check(packet, field, verdict);
-    });
+    if (!is_plain(packet, version)) check_fields(packet, version, verdict);
     if (verdict.accepted) check_together(packet, version, verdict);
     return verdict;
 }
 
-// A type of AllPackets that is missing here shows as an undefined reference. The argument is a type, so no
-// parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
-#define SKYIG_CIGI_PACKET(P) template Verdict validate<P>(P&, Version) noexcept;
-SKYIG_CIGI_PACKET(IgControl)
-SKYIG_CIGI_PACKET(EntityControl)
-SKYIG_CIGI_PACKET(EntityPosition)
-SKYIG_CIGI_PACKET(ComponentControl)
-SKYIG_CIGI_PACKET(ShortComponentControl)
-SKYIG_CIGI_PACKET(CelestialSphereControl)
-SKYIG_CIGI_PACKET(AtmosphereControl)
-SKYIG_CIGI_PACKET(EnvRegionControl)
-SKYIG_CIGI_PACKET(WeatherControl)
-SKYIG_CIGI_PACKET(ViewControl)
-SKYIG_CIGI_PACKET(ViewDefinition)
-SKYIG_CIGI_PACKET(HatHotRequest)
-SKYIG_CIGI_PACKET(PositionRequest)
-SKYIG_CIGI_PACKET(EnvConditionsRequest)
-SKYIG_CIGI_PACKET(StartOfFrame)
-SKYIG_CIGI_PACKET(HatHotResponse)
-SKYIG_CIGI_PACKET(HatHotExtendedResponse)
-SKYIG_CIGI_PACKET(PositionResponse)
-SKYIG_CIGI_PACKET(WeatherConditionsResponse)
-SKYIG_CIGI_PACKET(AerosolResponse)
-SKYIG_CIGI_PACKET(MaritimeSurfaceResponse)
-SKYIG_CIGI_PACKET(TerrestrialSurfaceResponse)
-SKYIG_CIGI_PACKET(EventNotification)
-SKYIG_CIGI_PACKET(IgMessage)
-#undef SKYIG_CIGI_PACKET
+// The argument is a type, so no parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
+#define SKYIG_CIGI_INSTANTIATE(P) template Verdict validate<P>(P&, Version) noexcept;
+SKYIG_CIGI_HOST_PACKETS(SKYIG_CIGI_INSTANTIATE)
+SKYIG_CIGI_IG_PACKETS(SKYIG_CIGI_INSTANTIATE)
+#undef SKYIG_CIGI_INSTANTIATE
 // NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace skyig::protocol::cigi

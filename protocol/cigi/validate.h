@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "protocol/cigi/counters.h"
-#include "protocol/cigi/packets.h"
+#include "protocol/cigi/packet_list.h"
 #include "protocol/cigi/wire.h"
 
 namespace skyig::protocol::cigi {

@@ -1,7 +1,10 @@
 // What the walk over a message does with bad sizes, strange ids and doubled first packets.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "protocol/cigi/message.h"
@@ -98,6 +101,46 @@ TEST_P(Framing, KnownIdOfAnotherSizeIsPassedOver) {
     EXPECT_FALSE(summary.fault);
     EXPECT_EQ(counters[Count::kWrongSize], 1U);
     EXPECT_EQ(kinds.kinds, (std::vector{kPacketKind<IgControl>, kPacketKind<AtmosphereControl>}));
+}
+
+TEST_P(Framing, APacketThatIsPassedOverIsNamedWithItsReason) {
+    struct Watch {
+        void passed_over(const RefusedPacket& packet, const PacketInfo& info) {
+            seen.emplace_back(packet.kind, packet.reason, info.offset);
+        }
+        std::vector<std::tuple<std::size_t, Count, std::uint32_t>> seen;
+    };
+    add_raw(id_of_celestial(), 32, 32);
+    ASSERT_TRUE(writer.add(IgControl{}));
+    Watch watch;
+    static_cast<void>(decode_host_message(writer.bytes(), watch, counters));
+    ASSERT_EQ(watch.seen.size(), 2U);
+    EXPECT_EQ(watch.seen[0], std::tuple(kPacketKind<CelestialSphereControl>, Count::kWrongSize, 24U));
+    EXPECT_EQ(watch.seen[1], std::tuple(kPacketKind<IgControl>, Count::kDuplicateIgControl, 56U));
+}
+
+TEST_P(Framing, ATextMayBeUnpaddedAndUnendedButNotLongerThanItsPacketMayBe) {
+    struct Texts {
+        void operator()(const IgMessage& message) { texts.emplace_back(message.text); }
+        std::vector<std::string> texts;
+    };
+    const auto header = header_bytes(writer.version());
+    const std::size_t offset = writer.version() == Version::k33 ? 4 : 8;
+    const std::uint16_t id = writer.version() == Version::k33 ? 117 : 0x0FF0;
+    writer.clear();
+    ASSERT_TRUE(writer.add(StartOfFrame{}));
+    add_raw(id, static_cast<std::uint16_t>(offset), offset);  // no text at all
+    const std::size_t at = writer.bytes().size();
+    add_raw(id, static_cast<std::uint16_t>(offset + 3), offset + 3);
+    std::fill_n(buffer.begin() + static_cast<std::ptrdiff_t>(at + offset), 3, std::byte{'a'});
+    add_raw(id, 112, 112);
+    add_raw(id, static_cast<std::uint16_t>(header), header);
+    Texts texts;
+    EXPECT_FALSE(decode_ig_message(writer.bytes(), texts, counters).fault);
+    const bool old = writer.version() == Version::k33;
+    EXPECT_EQ(texts.texts,
+              old ? (std::vector<std::string>{"", "aaa"}) : (std::vector<std::string>{"", "aaa", ""}));
+    EXPECT_EQ(counters[Count::kWrongSize], old ? 2U : 1U);
 }
 
 TEST_P(Framing, UnknownIdsAreSkippedByTheirSize) {

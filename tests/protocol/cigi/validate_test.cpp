@@ -299,5 +299,60 @@ TEST(Validate, OneBandOf33StandsForBothSides) {
     EXPECT_EQ(newer.top_transition_band, 0.0F);
 }
 
+TEST(Validate, AWaveNeedsALengthAndAPeriodOnlyWhileItIsOn) {
+    const WaveControl good{.wave_enable = true, .height = 1.0F, .wavelength = 50.0F, .period = 6.0F};
+    EXPECT_TRUE(verdict_of(good).accepted);
+    WaveControl wave = good;
+    wave.wavelength = 0.0F;
+    expect_refused(wave, Count::kOutOfRange, "wavelength");
+    wave = good;
+    wave.period = 0.0F;
+    expect_refused(wave, Count::kOutOfRange, "period");
+    wave = good;
+    wave.height = -0.1F;
+    expect_refused(wave, Count::kOutOfRange, "height", Version::k40);
+    EXPECT_TRUE(verdict_of(WaveControl{}).accepted);
+    expect_refused(WaveControl{.breaker_type = BreakerType{3}}, Count::kOutOfRange, "breaker_type");
+    expect_refused(WaveControl{.scope = WeatherScope{3}}, Count::kOutOfRange, "scope");
+}
+
+TEST(Validate, WaveAnglesAreWrappedIntoTheirOwnBounds) {
+    WaveControl wave{.direction = -90.0F, .phase_offset = -360.0F, .leading = 200.0F};
+    ASSERT_TRUE(validate(wave, Version::k33).accepted);
+    EXPECT_EQ(wave.direction, 270.0F);
+    EXPECT_EQ(wave.phase_offset, -360.0F);
+    EXPECT_EQ(wave.leading, -160.0F);
+    wave.phase_offset = 400.0F;
+    ASSERT_TRUE(validate(wave, Version::k33).accepted);
+    EXPECT_EQ(wave.phase_offset, 40.0F);
+    expect_refused(WaveControl{.phase_offset = 721.0F}, Count::kOutOfRange, "phase_offset");
+}
+
+TEST(Validate, SurfacesKeepTheirRanges) {
+    MaritimeSurfaceControl sea{.clarity = 120.0F};
+    EXPECT_TRUE(validate(sea, Version::k33).clamped);
+    EXPECT_EQ(sea.clarity, 100.0F);
+    expect_refused(MaritimeSurfaceControl{.scope = WeatherScope{3}}, Count::kOutOfRange, "scope");
+    expect_refused(MaritimeSurfaceControl{.water_temperature = kNan}, Count::kNonfinite, "water_temperature");
+    TerrestrialSurfaceControl land{.severity = 31, .coverage = 101};
+    EXPECT_TRUE(validate(land, Version::k40).clamped);
+    EXPECT_EQ(land.coverage, 100);
+    expect_refused(TerrestrialSurfaceControl{.scope = WeatherScope{3}}, Count::kOutOfRange, "scope");
+    expect_refused(ConformalClamped{.latitude = 90.5}, Count::kOutOfRange, "latitude");
+    expect_refused(RateControl{.yaw_rate = kNan}, Count::kNonfinite, "yaw_rate");
+    EXPECT_TRUE(verdict_of(RateControl{.roll_rate = -900.0F}).accepted);
+}
+
+TEST(Validate, AnEarthModelCountsOnlyWhileItIsCustom) {
+    EarthModelDefinition earth{.equatorial_radius = kInfinity, .flattening = -5.0};
+    ASSERT_TRUE(validate(earth, Version::k33).accepted);
+    EXPECT_EQ(earth.equatorial_radius, 6378137.0);
+    EXPECT_TRUE(verdict_of(EarthModelDefinition{.custom_enable = true}).accepted);
+    expect_refused(EarthModelDefinition{.custom_enable = true, .equatorial_radius = 0.0}, Count::kOutOfRange,
+                   "equatorial_radius");
+    expect_refused(EarthModelDefinition{.custom_enable = true, .flattening = 1.0}, Count::kOutOfRange,
+                   "flattening");
+}
+
 }  // namespace
 }  // namespace skyig::protocol::cigi
