@@ -7,6 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "clients/skyig/ephem/almanac.h"
+#include "clients/skyig/ephem/body_name.h"
+#include "clients/skyig/ephem/star_name.h"
 #include "clients/skyig/options.h"
 #include "server/ephemeris/time.h"
 
@@ -14,7 +17,7 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kVerbs{"host", "shot", "bench"};
+constexpr std::array<std::string_view, 4> kVerbs{"host", "shot", "bench", "ephem"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -149,6 +152,102 @@ void add_bench(CLI::App& app, BenchOptions& options) {
     app.add_flag("--json", options.json, "tell the results as JSON");
 }
 
+CLI::Validator known_body() {
+    const auto check = [](std::string& text) -> std::string {
+        if (ephem::parse_body(text)) return {};
+        return fmt::format("'{}' is none of {}", text, ephem::body_list());
+    };
+    return {check, "BODY"};
+}
+
+CLI::Validator known_star() {
+    const auto check = [](std::string& text) -> std::string {
+        if (ephem::parse_star(text)) return {};
+        return fmt::format("'{}' is no star here; write a name as Sirius or a number of the Yale catalogue",
+                           text);
+    };
+    return {check, "STAR"};
+}
+
+CLI::Validator known_span() {
+    const auto check = [](std::string& text) -> std::string {
+        if (ephem::parse_span(text)) return {};
+        return fmt::format("'{}' is no span within 1900..2100; write it as 2026-06-01..2026-06-30", text);
+    };
+    return {check, "DATE..DATE"};
+}
+
+constexpr const char* kEphemFooter =
+    R"(Tables (--batch) need a column of time: utc or date_ut (UTC, before 1972 UT1), jd_tt (Julian date in TT;
+seen from the Earth's centre) or td_iso (TT). Columns body, lat_deg, lon_deg and h_m (0 if missing) say
+what is seen from where: without body it is --body or the Moon, without a place --lat --lon --alt or the
+Earth's centre. tt_minus_utc_s (tt_minus_ut_s), ut1_minus_utc_s (ut1_minus_ut_s) and, with td_iso,
+delta_t_s (catalog_delta_t_s) come before the built-in tables. Lines with # are left out. Every row keeps
+its columns and gets skyig_*: right ascension and declination are apparent, of the true equator and equinox of
+date; elevations airless and refracted; the bright limb counts from the north of date through east; the
+Moon's sub-Earth and sub-solar points are for the eye (or the Earth's centre); its axis angle counts from the
+north of J2000. A bad row is told on stderr, its new columns stay empty, and the exit status is 1.
+Events: rise and set are of the upper limb with 34' of refraction, from height 0 (--horizon eye: behind the
+horizon that the eye sees from its height, through the air); twilights of the Sun's centre at -6, -12, -18
+degrees; contacts of eclipses to a second, for mean limbs.)";
+
+void add_ephem(CLI::App& app, EphemOptions& options, std::string& horizon) {
+    CLI::Option* utc = app.add_option("--utc", options.utc, "UTC, as 2026-06-21T19:30:00Z (now)")
+                           ->check(utc_time())
+                           ->type_name("TIME");
+    CLI::Option* latitude = app.add_option("--lat", options.latitude_deg, "latitude, degrees north")
+                                ->check(finite_in(-90.0, 90.0));
+    CLI::Option* longitude = app.add_option("--lon", options.longitude_deg, "longitude, degrees east")
+                                 ->check(finite_in(-360.0, 360.0));
+    latitude->needs(longitude);
+    longitude->needs(latitude);
+    app.add_option("--alt", options.height_m, "height above the WGS84 ellipsoid, metres (0)")
+        ->check(finite_in(-12'000.0, 1e8))
+        ->needs(latitude);
+    app.add_option("--model", options.model, "series, erfa or almanac (series)")
+        ->check(CLI::IsMember({"series", "erfa", "almanac"}))
+        ->type_name("MODEL");
+    app.add_option("--body", options.bodies, "which bodies, as sun,moon (all; events: sun,moon)")
+        ->delimiter(',')
+        ->check(known_body());
+    CLI::Option* star =
+        app.add_option("--star", options.stars, "stars too, by name or number in the Yale catalogue")
+            ->delimiter(',')
+            ->check(known_star());
+    app.add_option("--pressure-hpa", options.pressure_hpa, "of the air at height 0 (1013.25)")
+        ->check(finite_in(0.0, 1200.0));
+    app.add_option("--temperature-c", options.temperature_c, "of the air at height 0 (15)")
+        ->check(finite_in(-100.0, 70.0));
+    CLI::Option* batch =
+        app.add_option("--batch", options.batch_path, "add columns to this table (CSV; - is standard input)")
+            ->type_name("IN.csv")
+            ->excludes(utc)
+            ->excludes(star);
+    app.add_option("-o,--out", options.out_path, "where the table goes (standard output)")
+        ->type_name("OUT.csv")
+        ->needs(batch);
+    app.add_option("--time-column", options.time_column, "the table's column of UTC times")
+        ->type_name("NAME")
+        ->needs(batch);
+    CLI::Option* events =
+        app.add_option("--events", options.events, "what happens on these days: 2026-06-01..2026-06-30")
+            ->check(known_span())
+            ->excludes(batch)
+            ->excludes(utc)
+            ->excludes(star);
+    app.add_option("--horizon", horizon, "of rise and set, almanac or eye (almanac)")
+        ->check(CLI::IsMember({"almanac", "eye"}))
+        ->type_name("HORIZON")
+        ->needs(events)
+        ->needs(latitude);
+    CLI::Option* json = app.add_flag("--json", options.json, "tell the results as JSON")->excludes(batch);
+    app.add_flag("--text")
+        ->description("tell the results as text (so it is)")
+        ->excludes(json)
+        ->excludes(batch);
+    app.footer(kEphemFooter);
+}
+
 /// The first word that is no option, when it is no verb either.
 const char* unknown_verb(int argc, const char* const* argv) {
     if (argc < 2 || argv[1][0] == '-') return nullptr;
@@ -175,20 +274,27 @@ Invocation read_command_line(int argc, const char* const* argv) {
     HostOptions host;
     ShotOptions shot;
     BenchOptions bench;
+    EphemOptions ephem;
     std::string order = "little";
+    std::string horizon = "almanac";
     CLI::App* host_verb =
         app.add_subcommand("host", "fly a recorded flight at a daemon and tell what it answers");
     CLI::App* shot_verb = app.add_subcommand("shot", "draw one still without a network");
     CLI::App* bench_verb = app.add_subcommand("bench", "measure error and cost of every model of a family");
+    CLI::App* ephem_verb =
+        app.add_subcommand("ephem", "where Sun, Moon, planets and stars stand, and when things happen");
     add_host(*host_verb, host, order);
     add_shot(*shot_verb, shot);
     add_bench(*bench_verb, bench);
+    add_ephem(*ephem_verb, ephem, horizon);
     try {
         app.parse(argc, argv);
         host.big_endian = order == "big";
         if (host_verb->parsed()) invocation.options = host;
         if (shot_verb->parsed()) invocation.options = shot;
         if (bench_verb->parsed()) invocation.options = bench;
+        ephem.eye_horizon = horizon == "eye";
+        if (ephem_verb->parsed()) invocation.options = ephem;
     } catch (const CLI::CallForHelp&) {
         const std::vector<CLI::App*> asked = app.get_subcommands();
         invocation.output = (asked.empty() ? &app : asked.front())->help();

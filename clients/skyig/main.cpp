@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "clients/skyig/bench.h"
+#include "clients/skyig/ephem.h"
 #include "clients/skyig/host.h"
 #include "clients/skyig/options.h"
 #include "clients/skyig/shot.h"
@@ -19,6 +20,7 @@ int run(int argc, char** argv) {
     if (const auto* host = std::get_if<HostOptions>(&invocation.options)) return run_host(*host);
     if (const auto* shot = std::get_if<ShotOptions>(&invocation.options)) return run_shot(*shot);
     if (const auto* bench = std::get_if<BenchOptions>(&invocation.options)) return run_bench(*bench);
+    if (const auto* ephem = std::get_if<EphemOptions>(&invocation.options)) return run_ephem(*ephem);
     return invocation.exit_status;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace skyig::clients {
 
@@ -70,9 +71,36 @@ struct BenchOptions {
     bool json = false;
 };
 
+/// skyig ephem: places of Sun, Moon, planets and stars, for one moment, for a table, or when things happen.
+struct EphemOptions {
+    /// ISO 8601, already checked; empty = now.
+    std::string utc;
+    std::optional<double> latitude_deg;
+    std::optional<double> longitude_deg;
+    double height_m = 0.0;
+    std::string model = "series";
+    /// Names, already checked; empty = all (for events Sun and Moon).
+    std::vector<std::string> bodies;
+    /// Names or numbers, already checked.
+    std::vector<std::string> stars;
+    double pressure_hpa = 1013.25;
+    double temperature_c = 15.0;
+    /// A table to fill in, in place of a report; "-" = standard input.
+    std::string batch_path;
+    /// Where the table goes; empty or "-" = standard output.
+    std::string out_path;
+    /// Its column of times, when it is none of the usual ones.
+    std::string time_column;
+    /// "2026-06-01..2026-06-30", already checked: what happens, in place of a report.
+    std::string events;
+    /// Rise and set behind the horizon as the eye sees it from its height, through the air.
+    bool eye_horizon = false;
+    bool json = false;
+};
+
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
-    std::variant<std::monostate, HostOptions, ShotOptions, BenchOptions> options;
+    std::variant<std::monostate, HostOptions, ShotOptions, BenchOptions, EphemOptions> options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)
     std::string error;   ///< for stderr, one line
