@@ -7,6 +7,9 @@
 namespace skyig::server::world {
 namespace {
 
+/// A host that has said the same within so long while the clock ran says it always.
+constexpr double kRepeatsWithin_s = 5.0;
+
 std::optional<ephemeris::UtcClockTime> time_of(
     const protocol::cigi::CelestialSphereControl& control) noexcept {
     protocol::cigi::Date date;
@@ -26,18 +29,26 @@ std::optional<ephemeris::UtcClockTime> time_of(
 bool UtcClock::apply(const protocol::cigi::CelestialSphereControl& control) noexcept {
     const bool ran = running_;
     running_ = control.ephemeris_enable;
-    if (!control.date_time_valid) return true;
+    if (!control.date_time_valid) {
+        last_setting_.reset();
+        repeats_ = false;
+        return true;
+    }
     const std::optional<ephemeris::UtcClockTime> setting = time_of(control);
     if (!setting) return false;
-    const bool repeated = has_setting_ && *setting == last_setting_;
-    has_setting_ = true;
-    last_setting_ = *setting;
-    if (!(repeated && ran && running_)) now_ = *setting;
+    const bool same = setting == last_setting_;
+    if (same && ran && silent_s_ <= kRepeatsWithin_s) repeats_ = true;
+    silent_s_ = 0.0;
+    last_setting_ = setting;
+    if (!(same && ((ran && running_) || repeats_))) now_ = *setting;
     return true;
 }
 
 void UtcClock::advance(double step_s) noexcept {
-    if (running_) now_.advance(step_s);
+    if (!running_) return;
+    now_.advance(step_s);
+    silent_s_ += step_s;
+    if (silent_s_ > kRepeatsWithin_s) repeats_ = false;
 }
 
 }  // namespace skyig::server::world

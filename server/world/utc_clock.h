@@ -1,6 +1,8 @@
 // The world's UTC clock: set by the host, running by itself or frozen.
 #pragma once
 
+#include <optional>
+
 #include "protocol/cigi/packets.h"
 #include "server/ephemeris/time.h"
 
@@ -10,10 +12,13 @@ class UtcClock {
   public:
     UtcClock(const ephemeris::UtcClockTime& start, bool running) noexcept : now_(start), running_(running) {}
 
-    /// Date, time and `ephemeris_enable` of a Celestial Sphere Control. A setting equal to the last one is
-    /// none while the clock ran and goes on running: hosts exist that repeat the minute in every message, and
-    /// CIGI 3.3 has no seconds, so that obeying them would hold the clock at second 0. \return false when the
-    /// date and time do not exist; the clock then stays.
+    /// Date, time and `ephemeris_enable` of a Celestial Sphere Control. Hosts exist that repeat the same date
+    /// in every message, and CIGI 3.3 has no seconds, so that obeying them would hold the clock at second 0.
+    /// So a setting equal to the last one is none while the clock runs on, and for a host that has been
+    /// repeating it at least every 5 s of the running clock, none when it freezes, while frozen and when it
+    /// resumes either. From any other host the same setting at a freeze is one: its exercise begins anew. A
+    /// message without a valid date makes any next setting a new one. \return false when the date and time do
+    /// not exist; the clock then stays.
     bool apply(const protocol::cigi::CelestialSphereControl& control) noexcept;
 
     void advance(double step_s) noexcept;
@@ -24,8 +29,11 @@ class UtcClock {
   private:
     ephemeris::UtcClockTime now_;
     bool running_;
-    bool has_setting_ = false;
-    ephemeris::UtcClockTime last_setting_;
+    std::optional<ephemeris::UtcClockTime> last_setting_;
+    /// Since the last valid setting, of the running clock.
+    double silent_s_ = 0.0;
+    /// The host says its date over and over.
+    bool repeats_ = false;
 };
 
 }  // namespace skyig::server::world

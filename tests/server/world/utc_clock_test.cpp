@@ -60,6 +60,58 @@ TEST(UtcClock, RepeatedSettingWhileFrozenHoldsIt) {
     EXPECT_NEAR(seconds_to(clock, "2026-06-21T19:30:00Z"), 0.0, 1e-9);
 }
 
+/// Frames of a host that says the same date and time in each.
+void repeat(UtcClock& clock, const CelestialSphereControl& control, double seconds) {
+    constexpr double kFrame_s = 0.125;
+    for (double time_s = 0.0; time_s < seconds; time_s += kFrame_s) {
+        EXPECT_TRUE(clock.apply(control));
+        clock.advance(kFrame_s);
+    }
+}
+
+TEST(UtcClock, HostThatAlwaysRepeatsItsDateFreezesAndResumesWhereItStands) {
+    UtcClock clock(utc("2020-01-01T00:00:00Z"), true);
+    repeat(clock, setting(19, 30, true), 40.0);
+    repeat(clock, setting(19, 30, false), 600.0);
+    EXPECT_NEAR(seconds_to(clock, "2026-06-21T19:30:40Z"), 0.0, 1e-9);
+    repeat(clock, setting(19, 30, true), 5.0);
+    EXPECT_NEAR(seconds_to(clock, "2026-06-21T19:30:45Z"), 0.0, 1e-9);
+    // Silent while frozen: it is still the same host.
+    EXPECT_TRUE(clock.apply(setting(19, 30, false)));
+    clock.advance(3600.0);
+    repeat(clock, setting(19, 30, true), 5.0);
+    EXPECT_NEAR(seconds_to(clock, "2026-06-21T19:30:50Z"), 0.0, 1e-9);
+    // Another date is one, frozen or not.
+    repeat(clock, setting(4, 15, false), 5.0);
+    EXPECT_NEAR(seconds_to(clock, "2026-06-21T04:15:00Z"), 0.0, 1e-9);
+}
+
+TEST(UtcClock, HostThatSaysItsMinuteFreezesWithinIt) {
+    UtcClock clock(utc("2020-01-01T00:00:00Z"), true);
+    repeat(clock, setting(19, 30, true), 60.0);
+    repeat(clock, setting(19, 31, true), 12.0);
+    repeat(clock, setting(19, 31, false), 30.0);
+    EXPECT_NEAR(seconds_to(clock, "2026-06-21T19:31:12Z"), 0.0, 1e-9);
+}
+
+TEST(UtcClock, SameDateAgainFromAHostThatHadFallenSilentIsASetting) {
+    // Three times for a lossy network, then not again until the exercise starts anew.
+    UtcClock clock(utc("2020-01-01T00:00:00Z"), true);
+    repeat(clock, setting(19, 30, true), 0.375);
+    clock.advance(600.0);
+    EXPECT_TRUE(clock.apply(setting(19, 30, false)));
+    EXPECT_NEAR(seconds_to(clock, "2026-06-21T19:30:00Z"), 0.0, 1e-9);
+}
+
+TEST(UtcClock, SameDateAfterNoneWasValidIsASetting) {
+    UtcClock clock(utc("2020-01-01T00:00:00Z"), true);
+    repeat(clock, setting(19, 30, true), 1.0);
+    repeat(clock, setting(0, 0, true, false), 600.0);
+    EXPECT_NEAR(seconds_to(clock, "2026-06-21T19:40:01Z"), 0.0, 1e-9);
+    EXPECT_TRUE(clock.apply(setting(19, 30, true)));
+    EXPECT_NEAR(seconds_to(clock, "2026-06-21T19:30:00Z"), 0.0, 1e-9);
+}
+
 TEST(UtcClock, FreezeWithoutDateHoldsTheMomentAndResumeGoesOnFromIt) {
     UtcClock clock(utc("2020-01-01T00:00:00Z"), true);
     EXPECT_TRUE(clock.apply(setting(19, 30, true)));
