@@ -22,14 +22,25 @@ inline constexpr double kKmPerAu = 149597870.7;
     return path_km;
 }
 
-/// Lorentz transformation of the unit direction to a source; `velocity_c` is the eye's, barycentric.
-[[nodiscard]] inline glm::dvec3 aberrated(const glm::dvec3& direction,
-                                          const glm::dvec3& velocity_c) noexcept {
-    const double along = glm::dot(direction, velocity_c);
-    const double inverse_gamma = std::sqrt(1.0 - glm::dot(velocity_c, velocity_c));
-    const double weight = 1.0 + along / (1.0 + inverse_gamma);
-    return glm::normalize(direction * inverse_gamma + velocity_c * weight);
-}
+/// The eye's barycentric motion, ready to turn directions by aberration.
+class Aberration {
+  public:
+    explicit Aberration(const glm::dvec3& velocity_c) noexcept
+        : velocity_c_(velocity_c),
+          inverse_gamma_(std::sqrt(1.0 - glm::dot(velocity_c, velocity_c))),
+          share_(1.0 / (1.0 + inverse_gamma_)) {}
+
+    /// Lorentz transformation of the unit direction to a source: a unit vector again.
+    [[nodiscard]] glm::dvec3 apparent(const glm::dvec3& direction) const noexcept {
+        const double along = glm::dot(direction, velocity_c_);
+        return (direction * inverse_gamma_ + velocity_c_ * (1.0 + along * share_)) * (1.0 / (1.0 + along));
+    }
+
+  private:
+    glm::dvec3 velocity_c_;
+    double inverse_gamma_;
+    double share_;
+};
 
 /// Bending by the Sun's mass to first order (Explanatory Supplement 2013, 7.63; 1.75 arcsec at the limb). All
 /// directions are unit vectors: `direction` eye to source, `source_from_sun`, `eye_from_sun` (for a star

@@ -1,6 +1,5 @@
 #include "server/ephemeris/sky_state.h"
 
-#include <erfa.h>
 #include <erfam.h>
 
 #include <algorithm>
@@ -17,8 +16,10 @@ namespace {
 
 constexpr double kEquatorRadius_km = 6378.137;
 constexpr double kFlattening = 1.0 / 298.257223563;
-/// Rate of the Earth rotation angle (IAU 2000), radians per second of UT1.
-constexpr double kEarthRate_rad_s = 2.0 * std::numbers::pi * 1.00273781191135448 / 86400.0;
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+/// Turns of the Earth a day of UT1, beyond one (IAU 2000).
+constexpr double kSiderealGain = 0.00273781191135448;
+constexpr double kEarthRate_rad_s = kTurn_rad * (1.0 + kSiderealGain) / 86400.0;
 
 Geodetic accepted(const Geodetic& eye) noexcept {
     const auto finite = [](double value) { return std::isfinite(value) ? value : 0.0; };
@@ -62,6 +63,15 @@ glm::dmat3 rotation_about_z(double angle_rad) noexcept {
     return {c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0};
 }
 
+/// Earth rotation angle (IAU 2000), within a turn or so; whole days turn the Earth by whole turns and the
+/// gain.
+double earth_rotation_rad(const JulianDate& ut1) noexcept {
+    const double days = (ut1.day - ERFA_DJ00) + ut1.fraction;
+    const double day_part = ut1.day - std::floor(ut1.day);
+    const double turns = 0.7790572732640 + kSiderealGain * days;
+    return kTurn_rad * (day_part + ut1.fraction + (turns - std::floor(turns)));
+}
+
 /// Polar motion, angles under 1e-4 rad: from the axes that turn about the pole of date to the Earth's own.
 glm::dmat3 itrs_from_tirs(double polar_x_rad, double polar_y_rad) noexcept {
     return {1.0, 0.0, -polar_x_rad, 0.0, 1.0, polar_y_rad, polar_x_rad, -polar_y_rad, 1.0};
@@ -76,6 +86,7 @@ double angular_radius(double radius_km, double range_km) noexcept {
 struct Observer {
     glm::dvec3 position_km{0.0};
     glm::dvec3 velocity_c{0.0};
+    Aberration aberration{velocity_c};
     glm::dmat3 axes_from_gcrs{1.0};
     /// Celestial pole of date in the wanted axes.
     glm::dvec3 pole{0.0, 0.0, 1.0};
@@ -83,7 +94,7 @@ struct Observer {
 
 void place_sun(SunState& sun, const glm::dvec3& path_km, const Observer& observer) noexcept {
     const double range_km = glm::length(path_km);
-    sun.direction_enu = observer.axes_from_gcrs * aberrated(path_km / range_km, observer.velocity_c);
+    sun.direction_enu = observer.axes_from_gcrs * observer.aberration.apparent(path_km / range_km);
     sun.distance_au = range_km / kKmPerAu;
     sun.angular_radius_rad = angular_radius(kBodyRadii_km[index_of(Body::kSun)], range_km);
 }
@@ -96,7 +107,7 @@ void place_moon(MoonState& moon, const SlowSky& slow, const glm::dvec3& sun_path
     const glm::dvec3 path_km = light_path(slow.moon_km, slow.moon_velocity_km_s, observer.position_km);
     const double range_km = glm::length(path_km);
     const glm::dvec3 direction = path_km / range_km;
-    const glm::dvec3 apparent = aberrated(direction, observer.velocity_c);
+    const glm::dvec3 apparent = observer.aberration.apparent(direction);
     const glm::dvec3 turn = glm::cross(direction, apparent);
     const auto turned = [&turn](const glm::dvec3& v) { return v + glm::cross(turn, v); };
     const glm::dvec3 sun_from_moon_km = sun_path_km - path_km;
@@ -126,7 +137,7 @@ PlanetState placed_planet(const SlowPlanet& slow, double radius_km, const Observ
     const glm::dvec3 path_km = slow.path_km - observer.position_km;
     const double range_km = glm::length(path_km);
     PlanetState planet;
-    planet.direction_enu = observer.axes_from_gcrs * aberrated(path_km / range_km, observer.velocity_c);
+    planet.direction_enu = observer.axes_from_gcrs * observer.aberration.apparent(path_km / range_km);
     planet.distance_km = range_km;
     // The sine stands for the angle: 1e-9 of it.
     planet.angular_radius_rad = radius_km / range_km;
@@ -140,6 +151,13 @@ PlanetState placed_planet(const SlowPlanet& slow, double radius_km, const Observ
     return planet;
 }
 
+double obscured(const SunState& sun, const MoonState& moon) noexcept {
+    // More than eight degrees apart they cannot touch: no need to measure.
+    if (glm::dot(sun.direction_enu, moon.direction_enu) < 0.99) return 0.0;
+    return covered_fraction(sun.angular_radius_rad, moon.angular_radius_rad,
+                            angle_between_rad(sun.direction_enu, moon.direction_enu));
+}
+
 void place_bodies(SkyState& state, const SlowSky& slow, const Observer& observer) noexcept {
     const glm::dvec3 sun_path_km = light_path(slow.sun_km, slow.sun_velocity_km_s, observer.position_km);
     place_sun(state.sun, sun_path_km, observer);
@@ -147,9 +165,7 @@ void place_bodies(SkyState& state, const SlowSky& slow, const Observer& observer
     for (std::size_t i = 0; i < kPlanetCount; ++i)
         state.planets[i] =
             placed_planet(slow.planets[i], kBodyRadii_km[index_of(Body::kMercury) + i], observer);
-    state.sun.obscured =
-        covered_fraction(state.sun.angular_radius_rad, state.moon.angular_radius_rad,
-                         angle_between_rad(state.sun.direction_enu, state.moon.direction_enu));
+    state.sun.obscured = obscured(state.sun, state.moon);
     state.enu_from_gcrs = observer.axes_from_gcrs;
     state.true_of_date_from_gcrs = slow.true_of_date_from_gcrs;
     state.earth_velocity_c = slow.earth_velocity_km_s / kSpeedOfLight_km_s;
@@ -171,13 +187,12 @@ bool is_valid(const Geodetic& eye) noexcept {
 
 SkyState sky_state_from(const SlowSky& slow, const Instant& instant, const Geodetic& eye) noexcept {
     const Site site = site_of(accepted(eye));
-    const glm::dmat3 enu_from_tirs =
-        site.enu_from_itrs * itrs_from_tirs(instant.polar_x_rad, instant.polar_y_rad);
-    const glm::dvec3 position_tirs_km =
-        site.position_itrs_km * itrs_from_tirs(instant.polar_x_rad, instant.polar_y_rad);
-    const double rotation_rad = eraEra00(instant.ut1.day, instant.ut1.fraction);
+    // A row vector from the left is turned back by a rotation.
+    const glm::dmat3 polar_motion = itrs_from_tirs(instant.polar_x_rad, instant.polar_y_rad);
+    const glm::dmat3 enu_from_tirs = site.enu_from_itrs * polar_motion;
+    const glm::dvec3 position_tirs_km = site.position_itrs_km * polar_motion;
+    const double rotation_rad = earth_rotation_rad(instant.ut1);
     const glm::dmat3 tirs_from_gcrs = rotation_about_z(rotation_rad) * slow.cirs_from_gcrs;
-    // A row vector from the left is turned back by the matrix.
     const glm::dvec3 turning_tirs_km_s =
         kEarthRate_rad_s * glm::dvec3(-position_tirs_km.y, position_tirs_km.x, 0.0);
     const Observer observer{

@@ -56,7 +56,7 @@ glm::dvec3 heliocentric_before(const theory::PositionVelocity& now, double secon
 struct Vantage {
     glm::dvec3 earth_heliocentric_km;
     glm::dvec3 sun_velocity_km_s;
-    glm::dvec3 earth_velocity_c;
+    Aberration aberration;
     glm::dvec3 pole;
     double centuries;
 };
@@ -84,7 +84,7 @@ SlowPlanet slow_planet(Body body, const theory::PositionVelocity& now, const Van
     const double sine = glm::length(across);
     if (sine > 0.0) planet.phase_slope_rad_km = across / (sine * range_km);
     planet.bright_limb_rad =
-        position_angle_rad(aberrated(planet.path_km / range_km, from.earth_velocity_c), across, from.pole);
+        position_angle_rad(from.aberration.apparent(planet.path_km / range_km), across, from.pole);
     PlanetLight light{.sun_distance_au = sun_range_km / kKmPerAu,
                       .distance_au = range_km / kKmPerAu,
                       .phase_angle_rad = planet.phase_angle_rad};
@@ -136,7 +136,7 @@ SlowSky evaluate_slow_sky(const JulianDate& tt, Model model) noexcept {
 
     const Vantage vantage{.earth_heliocentric_km = earth.heliocentric.position_km,
                           .sun_velocity_km_s = slow.sun_velocity_km_s,
-                          .earth_velocity_c = slow.earth_velocity_km_s / kSpeedOfLight_km_s,
+                          .aberration = Aberration(slow.earth_velocity_km_s / kSpeedOfLight_km_s),
                           .pole = glm::transpose(slow.cirs_from_gcrs)[2],
                           .centuries = ((tt.day - 2451545.0) + tt.fraction) / 36525.0};
     for (std::size_t i = 0; i < kPlanetCount; ++i) {

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "server/ephemeris/places.h"
+#include "server/ephemeris/slow_sky.h"
 #include "tests/server/ephemeris/truth.h"
 
 namespace skyig::server::ephemeris {
@@ -54,6 +56,26 @@ void expect_sound(const SkyState& state) {
     EXPECT_LE(state.moon.phase_angle_rad, std::numbers::pi);
     EXPECT_NEAR(state.moon.lit_fraction, 0.5 * (1.0 + std::cos(state.moon.phase_angle_rad)), 1e-12);
     EXPECT_TRUE(std::isfinite(state.moon.bright_limb_rad));
+    EXPECT_TRUE(finite(state.moon.shadow_axis_enu));
+    EXPECT_GT(state.moon.penumbra_radius, state.moon.umbra_radius);
+    EXPECT_GT(state.moon.umbra_radius, 2.0);
+    EXPECT_GE(state.moon.sunlit, 0.0);
+    EXPECT_LE(state.moon.sunlit, 1.0);
+    EXPECT_GT(state.moon.magnitude, -14.0);
+    EXPECT_LT(state.moon.magnitude, 0.0);
+    EXPECT_NEAR(glm::determinant(state.moon.enu_from_selenographic), 1.0, 1e-7);
+    EXPECT_NEAR(glm::determinant(state.true_of_date_from_gcrs), 1.0, 1e-12);
+    for (const PlanetState& planet : state.planets) {
+        ASSERT_TRUE(finite(planet.direction_enu));
+        EXPECT_NEAR(glm::length(planet.direction_enu), 1.0, 1e-13);
+        EXPECT_NEAR(planet.lit_fraction, 0.5 * (1.0 + std::cos(planet.phase_angle_rad)), 1e-12);
+        EXPECT_GT(planet.distance_km, 3e7);
+        EXPECT_GT(planet.angular_radius_rad, 5e-6);
+        EXPECT_LT(planet.angular_radius_rad, 2e-4);
+        EXPECT_GT(planet.magnitude, -5.5);
+        EXPECT_LT(planet.magnitude, 9.0);
+        EXPECT_LE(std::abs(planet.bright_limb_rad), std::numbers::pi);
+    }
 }
 
 double largest_difference_arcsec(const SkyState& a, const SkyState& b) {
@@ -262,6 +284,103 @@ TEST(SkyState, RefusesSitesThatAreNone) {
         expect_sound(state);
     }
     EXPECT_TRUE(compute_sky_state(instant, {}).eye_accepted);
+}
+
+TEST(SkyState, MovesPhasesOfPlanetsWithTheEye) {
+    // To first order in the state, by vectors here: Venus and Mars near the Earth from far up on either side.
+    const Instant instant = instant_at("2020-05-20T06:00:00Z");
+    const SkyState centre = geocentric_state_from(evaluate_slow_sky(instant.tt), instant.tt);
+    const SlowSky slow = evaluate_slow_sky(instant.tt);
+    double largest_arcsec = 0.0;
+    double largest_magnitude = 0.0;
+    for (const double longitude_deg : {0.0, 90.0, 180.0, 270.0}) {
+        const Geodetic eye{0.0, longitude_deg, 36e6};
+        const SkyState state = compute_sky_state(instant, eye);
+        const glm::dvec3 eye_km = glm::dvec3(0.0, 0.0, 6378.137 + 36e3) * state.enu_from_gcrs;
+        for (std::size_t i = 0; i < kPlanetCount; ++i) {
+            const glm::dvec3 geocentric_km = slow.planets[i].path_km;
+            const glm::dvec3 from_sun_km = geocentric_km - slow.sun_km;
+            const double by_vectors = angle_between_rad(geocentric_km - eye_km, from_sun_km) -
+                                      angle_between_rad(geocentric_km, from_sun_km);
+            const double in_state = state.planets[i].phase_angle_rad - centre.planets[i].phase_angle_rad;
+            largest_arcsec = std::max(largest_arcsec, std::abs(by_vectors - in_state) * kArcsecPerRad);
+            const double nearer =
+                5.0 * std::log10(glm::length(geocentric_km - eye_km) / glm::length(geocentric_km));
+            largest_magnitude = std::max(largest_magnitude, std::abs(state.planets[i].magnitude -
+                                                                     centre.planets[i].magnitude - nearer));
+        }
+    }
+    std::printf("phase moved by the eye at 36 000 km: within %.3f arcsec, magnitude within %.6f\n",
+                largest_arcsec, largest_magnitude);
+    EXPECT_LE(largest_arcsec, 0.5);
+    EXPECT_LE(largest_magnitude, 1e-4);
+}
+
+TEST(SkyState, BendsPlanetsAroundTheSunAndPutsThemInFrontUnbent) {
+    // Transit of Venus, 2012-06-06: seen before the Sun, least separation 554 arcsec for the Earth's centre
+    // at 01:29:36 UT (published). Bending would have pushed it off by more than an arcsec.
+    const Instant transit = instant_at("2012-06-06T01:29:36Z");
+    const GeocentricPlaces places = compute_geocentric(transit.tt);
+    const double transit_arcsec =
+        separation_arcsec(places.of(Body::kSun).direction, places.of(Body::kVenus).direction);
+    // Superior conjunctions of Mercury lead behind the Sun: no place goes astray there.
+    double largest_step_arcsec = 0.0;
+    glm::dvec3 before{0.0};
+    for (int minute = 0; minute < 6 * 1440; minute += 10) {
+        UtcClockTime time = parse_utc("2023-04-01T00:00:00Z").value();
+        time.advance(60.0 * minute);
+        const glm::dvec3 now =
+            compute_geocentric(make_instant(time).tt, Model::kAlmanac).of(Body::kMercury).direction;
+        if (minute > 0) largest_step_arcsec = std::max(largest_step_arcsec, separation_arcsec(now, before));
+        before = now;
+    }
+    std::printf("transit of Venus at %.1f arcsec (554.4); Mercury moves %.1f arcsec in ten minutes\n",
+                transit_arcsec, largest_step_arcsec);
+    EXPECT_NEAR(transit_arcsec, 554.4, 0.7);
+    EXPECT_LE(largest_step_arcsec, 60.0);
+}
+
+TEST(SkyState, NamesDirectionsForPeople) {
+    const Horizontal east = horizontal_of({1.0, 0.0, 1.0});
+    EXPECT_NEAR(east.azimuth_rad, std::numbers::pi / 2.0, 1e-15);
+    EXPECT_NEAR(east.elevation_rad, std::numbers::pi / 4.0, 1e-15);
+    EXPECT_NEAR(horizontal_of({-1.0, 0.0, 0.0}).azimuth_rad, 1.5 * std::numbers::pi, 1e-15);
+    EXPECT_EQ(horizontal_of({-1e-300, 1.0, 0.0}).azimuth_rad, 0.0);
+    EXPECT_EQ(horizontal_of({0.0, 0.0, 1.0}).azimuth_rad, 0.0);
+    EXPECT_NEAR(horizontal_of({0.0, 0.0, -2.0}).elevation_rad, -std::numbers::pi / 2.0, 1e-15);
+    const Equatorial pole = equatorial_of({0.0, 0.0, 1.0});
+    EXPECT_EQ(pole.right_ascension_rad, 0.0);
+    EXPECT_NEAR(pole.declination_rad, std::numbers::pi / 2.0, 1e-15);
+    EXPECT_NEAR(equatorial_of({0.0, -1.0, -1.0}).right_ascension_rad, 1.5 * std::numbers::pi, 1e-15);
+    // The zenith's declination is the geodetic latitude, its right ascension the sidereal time.
+    const Geodetic eye{-33.9, 151.2, 3000.0};
+    const Instant instant = instant_at("2026-02-03T04:05:06Z");
+    const Equatorial zenith = equatorial_of_date(compute_sky_state(instant, eye), {0.0, 0.0, 1.0});
+    EXPECT_NEAR(zenith.declination_rad, eye.latitude_deg * kRadPerDeg, 1e-12);
+    const double sidereal_rad =
+        eraGst06a(instant.ut1.day, instant.ut1.fraction, instant.tt.day, instant.tt.fraction) +
+        eye.longitude_deg * kRadPerDeg;
+    const double error_arcsec =
+        std::remainder(zenith.right_ascension_rad - sidereal_rad, 2.0 * std::numbers::pi) * kArcsecPerRad;
+    std::printf("sidereal time: %.5f arcsec from IAU 2006/2000A\n", error_arcsec);
+    EXPECT_LE(std::abs(error_arcsec), 0.003);
+}
+
+TEST(SkyState, SeesABodyInTheZenith) {
+    // Over the point that has the Sun in its zenith azimuth is without meaning; the rest stays whole.
+    const Instant instant = instant_at("2026-06-21T12:00:00Z");
+    const SkyState first = compute_sky_state(instant, {23.0, 0.0, 0.0});
+    const Equatorial sun = equatorial_of_date(first, first.sun.direction_enu);
+    const Equatorial up = equatorial_of_date(first, {0.0, 0.0, 1.0});
+    Geodetic eye{
+        sun.declination_rad / kRadPerDeg,
+        std::remainder(sun.right_ascension_rad - up.right_ascension_rad, 2.0 * std::numbers::pi) / kRadPerDeg,
+        0.0};
+    const SkyState state = compute_sky_state(instant, eye);
+    const double off_arcsec = separation_arcsec(state.sun.direction_enu, {0.0, 0.0, 1.0});
+    std::printf("Sun %.2f arcsec from the zenith\n", off_arcsec);
+    EXPECT_LE(off_arcsec, 10.0);
+    expect_sound(state);
 }
 
 TEST(CoveredFraction, IsTheLensArea) {
