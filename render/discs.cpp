@@ -14,6 +14,23 @@ namespace {
 // Linear limb darkening at red, green and blue (fits to Neckel and Labs 1994 near 610, 550 and 465 nm).
 const glm::vec3 kLimb{0.53F, 0.60F, 0.72F};
 
+// Reach of the corona, in radii of the Sun: as in sky/corona.frag.
+constexpr double kCoronaRadii = 8.0;
+
+// Rows over the Sun whose light is the mean luminance of its disc.
+DiscFrame sunlit_frame(const Sun& sun, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
+                       double reach_radii) {
+    DiscFrame frame = disc_frame(sun.direction_enu, sun.angular_radius_rad, pixel_rad, light, reach_radii);
+    const double sine = std::sin(sun.angular_radius_rad);
+    const double solid_angle = std::numbers::pi * sine * sine;
+    for (std::size_t row = 0; row < DiscFrame::kRows; ++row) {
+        const glm::dvec3 illuminance =
+            air.direct_sun_xyz(light.eye_height_m, frame.straight_elevation_rad[row], sun.distance_au);
+        frame.set_light(row, rec709_from_xyz(glm::vec3{illuminance / solid_angle}));
+    }
+    return frame;
+}
+
 }  // namespace
 
 ToneUniforms::ToneUniforms(const gl::Program& program, bool all) {
@@ -34,7 +51,7 @@ void ToneUniforms::set(const gl::Program& program, const shaders32::ToneParamete
     program.set(inv_display_max_, tone.inv_display_max);
 }
 
-DiscPass::DiscPass(std::string_view fragment)
+DiscPass::DiscPass(std::string_view fragment, bool dithers)
     : program_("sky/disc.vert", fragment),
       strip_({2, 2, 3}, 2 * DiscFrame::kRows),
       tone_(program_, true),
@@ -49,7 +66,7 @@ DiscPass::DiscPass(std::string_view fragment)
       background_(program_.uniform("u_background_cd_m2")),
       background_right_(program_.uniform("u_background_right")),
       background_up_(program_.uniform("u_background_up")),
-      dither_(program_.uniform("u_dither_codes")) {}
+      dither_(dithers ? program_.uniform("u_dither_codes") : -1) {}
 
 void DiscPass::prepare(const DiscFrame& frame, const shaders32::ToneParameters& tone, bool dither) {
     strip_.update(
@@ -64,7 +81,7 @@ void DiscPass::prepare(const DiscFrame& frame, const shaders32::ToneParameters& 
     program_.set(background_, frame.background_cd_m2);
     program_.set(background_right_, frame.background_right);
     program_.set(background_up_, frame.background_up);
-    program_.set(dither_, dither ? 1.0F : 0.0F);
+    if (dither_ >= 0) program_.set(dither_, dither ? 1.0F : 0.0F);
     tone_.set(program_, tone);
 }
 
@@ -74,25 +91,25 @@ void DiscPass::draw(const glm::mat4& clip_from_enu) const {
     strip_.draw_strip(2 * DiscFrame::kRows);
 }
 
-SunDisc::SunDisc() : pass_("sky/sun.frag"), limb_(pass_.program().uniform("u_limb")) {}
+SunDisc::SunDisc() : pass_("sky/sun.frag", true), limb_(pass_.program().uniform("u_limb")) {}
 
 void SunDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
                       const shaders32::ToneParameters& tone, bool dither) {
-    const Sun& sun = scene.sun;
-    DiscFrame frame = disc_frame(sun.direction_enu, sun.angular_radius_rad, pixel_rad, light);
-    const double sine = std::sin(sun.angular_radius_rad);
-    const double solid_angle = std::numbers::pi * sine * sine;
-    for (std::size_t row = 0; row < DiscFrame::kRows; ++row) {
-        const glm::dvec3 illuminance =
-            air.direct_sun_xyz(light.eye_height_m, frame.straight_elevation_rad[row], sun.distance_au);
-        frame.set_light(row, rec709_from_xyz(glm::vec3{illuminance / solid_angle}));
-    }
+    const DiscFrame frame = sunlit_frame(scene.sun, air, light, pixel_rad, 1.0);
     pass_.prepare(frame, tone, dither);
     pass_.program().set(limb_, kLimb);
 }
 
+Corona::Corona() : pass_("sky/corona.frag", false), share_(pass_.program().uniform("u_share")) {}
+
+void Corona::prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
+                     const shaders32::ToneParameters& tone, double share) {
+    pass_.prepare(sunlit_frame(scene.sun, air, light, pixel_rad, kCoronaRadii), tone, false);
+    pass_.program().set(share_, static_cast<float>(share));
+}
+
 MoonDisc::MoonDisc()
-    : pass_("night/moon.frag"),
+    : pass_("night/moon.frag", true),
       face_(pass_.program().uniform("u_full_cd_m2")),
       earthshine_(pass_.program().uniform("u_earthshine_cd_m2")),
       to_sun_(pass_.program().uniform("u_to_sun_disc")),

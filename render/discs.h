@@ -29,8 +29,9 @@ class ToneUniforms {
 class DiscPass {
   public:
     /// \param fragment  shader of the disc
+    /// \param dithers  whether it has the uniform for it
     /// \throws std::runtime_error when the program cannot be made
-    explicit DiscPass(std::string_view fragment);
+    DiscPass(std::string_view fragment, bool dithers);
 
     void prepare(const DiscFrame& frame, const shaders32::ToneParameters& tone, bool dither);
     void draw(const glm::mat4& clip_from_enu) const;
@@ -55,6 +56,19 @@ class SunDisc {
   private:
     DiscPass pass_;
     int limb_;
+};
+
+/// Seen when the Moon covers the Sun; blended by adding.
+class Corona {
+  public:
+    Corona();
+    void prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
+                 const shaders32::ToneParameters& tone, double share);
+    void draw(const glm::mat4& clip_from_enu) const { pass_.draw(clip_from_enu); }
+
+  private:
+    DiscPass pass_;
+    int share_;
 };
 
 class MoonDisc {

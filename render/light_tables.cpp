@@ -17,7 +17,7 @@ constexpr double kDegree = glm::radians(1.0);
 constexpr double kFromBeyondShadow = 2e-4;
 
 // What the Earth's air bends into its shadow, of the full Moon's light: the mean over the umbra of
-// shaders::sunlight_in_shadow().
+// shaders::sun_in_shadow().
 constexpr double kFromUmbra = 4e-5;
 
 double sunlight_lux(const sky::AirModel& model) {

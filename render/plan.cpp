@@ -32,6 +32,10 @@ double brightest_point_mag(const Scene& scene) {
     return brightest;
 }
 
+// Part of the disc that is left when the corona begins to show and when it shows in full.
+constexpr double kCoronaBegins = 0.02;
+constexpr double kCoronaWhole = 0.002;
+
 PlannedPass plan_sky(Pass pass, bool lights, bool valid, double now_rad, double held_rad, bool height_stale) {
     if (!lights) return {pass, false, "the source is too low to light the air"};
     if (!valid) return {pass, true, "no table of this air yet"};
@@ -54,8 +58,8 @@ void put(Plan& plan, const PlannedPass& pass) {
 }  // namespace
 
 std::string_view pass_name(Pass pass) noexcept {
-    constexpr std::array<std::string_view, kPassCount> kNames{"air tables", "sun sky",  "moon sky", "dome",
-                                                              "stars",      "sun disc", "moon disc"};
+    constexpr std::array<std::string_view, kPassCount> kNames{
+        "air tables", "sun sky", "moon sky", "dome", "stars", "corona", "sun disc", "moon disc"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -95,6 +99,13 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
                  height_is_stale(scene.eye.height_m, held.moon_sky_height_m)));
     put(plan, {Pass::kDome, true, "smooth light of all directions"});
     put(plan, {Pass::kStars, false, "not decided yet"});
+    plan.corona_share = smooth_step(kCoronaBegins, kCoronaWhole, scene.sun.unobscured);
+    if (plan.corona_share > 0.0) {
+        put(plan, plan_disc(Pass::kCorona, scene.sun.enabled, sun_rad, 8.0 * scene.sun.angular_radius_rad,
+                            sets_at_rad));
+    } else {
+        put(plan, {Pass::kCorona, false, "the Sun outshines it"});
+    }
     put(plan,
         plan_disc(Pass::kSunDisc, scene.sun.enabled, sun_rad, scene.sun.angular_radius_rad, sets_at_rad));
     put(plan,

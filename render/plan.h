@@ -17,10 +17,11 @@ enum class Pass {
     kMoonSky,    ///< direction table of moonlit air
     kDome,       ///< smooth light of all directions, toned at the vertices
     kStars,
+    kCorona,  ///< what is left of the Sun in a total eclipse
     kSunDisc,
     kMoonDisc,
 };
-inline constexpr std::size_t kPassCount = 7;
+inline constexpr std::size_t kPassCount = 8;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 
@@ -50,6 +51,8 @@ struct Plan {
     /// longer counts.
     double sun_share = 0.0;
     double moon_share = 0.0;
+    /// How much of the corona is drawn, 0..1: the last of the Sun's disc dazzles.
+    double corona_share = 0.0;
     /// Stars of this V magnitude are gone, those 0.8 mag brighter are drawn in full.
     double star_limit_mag = 0.0;
 

@@ -126,6 +126,7 @@ struct Renderer::Impl {
     Dome dome;
     gl::Mesh dome_mesh{{3, 3}, dome.vertices().size()};
     StarPass stars;
+    Corona corona;
     SunDisc sun_disc;
     MoonDisc moon_disc;
 
@@ -223,6 +224,9 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
         m.stars.prepare(scene, m.tables.air(), m.light, m.tone, plan.star_limit_mag);
         m.report.stars_drawn = m.stars.count();
     }
+    if (plan.needs(Pass::kCorona)) {
+        m.corona.prepare(scene, m.tables.air(), m.light, m.pixel_rad, tone32, plan.corona_share);
+    }
     if (plan.needs(Pass::kSunDisc)) {
         m.sun_disc.prepare(scene, m.tables.air(), m.light, m.pixel_rad, tone32, m.display.dither);
     }
@@ -253,6 +257,10 @@ void Renderer::draw(std::size_t channel) {
         m.targets[channel].bind(kStarGuard_px);
         m.stars.draw(m.channels[channel], view);
         m.targets[channel].bind();
+    }
+    if (plan.needs(Pass::kCorona)) {
+        gl::set_blend(gl::Blend::kAdd);
+        m.corona.draw(glm::mat4{clip_from_enu});
     }
     gl::set_blend(gl::Blend::kCoverage);
     if (plan.needs(Pass::kSunDisc)) m.sun_disc.draw(glm::mat4{clip_from_enu});

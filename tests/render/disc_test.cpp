@@ -129,10 +129,15 @@ TEST_F(Disc, NewMoonCoversTheSun) {
     EXPECT_EQ(without.at(128, 128).r, 255);
     EXPECT_EQ(without.at(128, 128).b, 255);
     EXPECT_LT(std::max({covered.r, covered.g, covered.b}), 200);
+    // Outside the Moon the corona shines.
+    const double moon_px = std::tan(scene.moon.angular_radius_rad) / std::tan(1.0 * kDegree) * kSize / 2;
     int brightest = 0;
-    for (int y = 0; y < kSize; ++y)
-        for (int x = 0; x < kSize; ++x)
-            brightest = std::max(brightest, with.at(x, y).g);
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < kSize; ++x) {
+            if (std::hypot(x + 0.5 - kSize / 2, y + 0.5 - kSize / 2) < moon_px - 1.0)
+                brightest = std::max(brightest, with.at(x, y).g);
+        }
+    }
     EXPECT_LT(brightest, 200) << "the Sun looks out from behind the Moon";
 }
 

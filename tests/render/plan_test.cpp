@@ -71,7 +71,7 @@ TEST(Plan, StarsGoBecauseTheSkyIsBrightNotBecauseTheSunIsUp) {
 
 TEST(Plan, PlanetsCountAsStarsForTheDecision) {
     Scene scene = make_scene(5, 180, -10, 0, 0);
-    const double background = 300.0;
+    const double background = 2000.0;
     Plan plan = plan_of(scene, fresh(scene));
     plan_stars(plan, scene, background);
     ASSERT_FALSE(plan.needs(Pass::kStars));

@@ -14,14 +14,18 @@ in float v_stretch;              // d(v_offset.y) / d(v_seen.y)
 in float v_height;
 in vec3 v_light;                 // of this height of the disc, behind the air
 
+float above_horizon() {
+    float elevation_sin = v_height * inversesqrt(1.0 + dot(v_seen, v_seen));
+    float above = (elevation_sin - u_horizon_sin) / (max(u_horizon_cos, 1e-3) * u_pixel_rad);
+    return clamp(above + 0.5, 0.0, 1.0);
+}
+
 float disc_coverage() {
     float from_centre = length(v_offset);
     vec2 outwards = v_offset / max(from_centre, 1e-9);
     float steepness = length(vec2(outwards.x, outwards.y * v_stretch));
     float disc = clamp((u_radius - from_centre) / (max(steepness, 1e-3) * u_pixel_rad) + 0.5, 0.0, 1.0);
-    float elevation_sin = v_height * inversesqrt(1.0 + dot(v_seen, v_seen));
-    float above = (elevation_sin - u_horizon_sin) / (max(u_horizon_cos, 1e-3) * u_pixel_rad);
-    return disc * clamp(above + 0.5, 0.0, 1.0);
+    return disc * above_horizon();
 }
 
 vec3 sky_behind() {

@@ -19,17 +19,26 @@ SKYIG_INLINE real lommel_seeliger(real cos_sun, real cos_eye) {
     return real(2.0) * cos_sun / (cos_sun + max(cos_eye, real(1e-3)));
 }
 
-// Part of its sunlight that reaches a point of the Moon, linear Rec.709, in the Earth's shadow; distances from the
-// shadow's axis in any unit. Through the penumbra the Earth's limb, nearly straight, crosses a limb-darkened Sun.
-// Into the umbra the Earth's air bends copper-red light, brighter and less red at the edge where it has passed higher:
-// 1e-5 of full sunlight on the axis, 1.6e-4 at the edge, Danjon's L = 2 to 3 (the Moon at about magnitude -1.7).
-SKYIG_INLINE rvec3 sunlight_in_shadow(real from_axis, real umbra, real penumbra) {
+// Parts of its sunlight that reach a point of the Moon in the Earth's shadow.
+struct SunInShadow {
+    real direct;
+    rvec3 refracted; // linear Rec.709
+};
+
+// Distances from the shadow's axis in any unit. Through the penumbra the Earth's limb, nearly straight, crosses a
+// limb-darkened Sun. Into the umbra the Earth's air bends copper-red light, brighter and less red at the edge where it
+// has passed higher: 1e-5 of full sunlight on the axis, 1e-4 at the edge, Danjon's L = 2 to 3 (the Moon at about
+// magnitude -1.7).
+SKYIG_INLINE SunInShadow sun_in_shadow(real from_axis, real umbra, real penumbra) {
     real x = clamp((from_axis - umbra) / max(penumbra - umbra, real(1e-6)), real(0.0), real(1.0));
     real direct = x * x * (real(3.0) - real(2.0) * x);
     real edge = clamp(from_axis / max(umbra, real(1e-6)), real(0.0), real(1.0));
     real outwards = edge * edge;
-    real level = real(1e-5) * exp2(real(4.0) * outwards);
+    real level = real(1e-5) * exp2(real(3.3) * outwards);
     rvec3 deep = rvec3(real(2.75), real(0.56), real(0.21));
     rvec3 high = rvec3(real(1.75), real(0.84), real(0.38));
-    return rvec3(direct) + (deep + (high - deep) * outwards) * (level * (real(1.0) - direct));
+    SunInShadow sun;
+    sun.direct = direct;
+    sun.refracted = (deep + (high - deep) * outwards) * (level * (real(1.0) - direct));
+    return sun;
 }

@@ -1,0 +1,148 @@
+// Every pixel of a disc against tone(absolute luminance) computed on the CPU in double: place, shape, colour
+// of the air and the sky behind it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "render/colour.h"
+#include "render/eye/tone_curve.h"
+#include "render/night/moon_light.h"
+#include "render/shaders/shared.h"
+#include "render/sky/air_tables.h"
+#include "tests/render/gl_fixture.h"
+#include "tests/render/light_tables_steps.h"
+
+namespace skyig::render {
+namespace {
+
+using namespace tests;
+
+constexpr int kSize = 160;
+
+// What stands behind a view direction, without the renderer's disc geometry.
+struct Reference {
+    Reference(const Scene& frame_scene, double adaptation_cd_m2)
+        : scene(frame_scene),
+          air(sky::air_model(scene.air)),
+          light(step(tables, scene)),
+          tone(eye::tone_parameters({}, adaptation_cd_m2)) {}
+
+    // Gnomonic coordinates about a body, in radii, of what is seen at `direction`.
+    [[nodiscard]] glm::dvec3 on_body(const glm::dvec3& body, double radius_rad,
+                                     const glm::dvec3& direction) const {
+        const Horizontal seen_at = horizontal_of(direction);
+        const glm::dvec3 straight =
+            direction_of({light.refraction.true_from_apparent(seen_at.elevation_rad), seen_at.azimuth_rad});
+        const glm::dvec3 right = glm::normalize(glm::cross(body, {0.0, 0.0, 1.0}));
+        const glm::dvec3 up = glm::cross(right, body);
+        const glm::dvec3 flat = straight / (glm::dot(straight, body) * std::tan(radius_rad));
+        const double x = glm::dot(flat, right);
+        const double y = glm::dot(flat, up);
+        return {x, y, std::sqrt(std::max(0.0, 1.0 - x * x - y * y))};
+    }
+    [[nodiscard]] glm::dvec3 sky(const glm::dvec3& direction) const {
+        const Horizontal at = horizontal_of(direction);
+        return glm::dvec3{light.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kSky)};
+    }
+    // Where tables of straight rays are asked for the light of what is seen there.
+    [[nodiscard]] double straight_rad(const glm::dvec3& direction) const {
+        return std::max(light.straight_elevation_rad(horizontal_of(direction).elevation_rad),
+                        light.straight_horizon_rad + 0.0048);
+    }
+    [[nodiscard]] glm::dvec3 sun(const glm::dvec3& direction) const {
+        const glm::dvec3 at = on_body(scene.sun.direction_enu, scene.sun.angular_radius_rad, direction);
+        const glm::dvec3 limb{0.53, 0.60, 0.72};
+        const glm::dvec3 profile = (1.0 - limb * (1.0 - at.z)) / (1.0 - limb / 3.0);
+        const double sine = std::sin(scene.sun.angular_radius_rad);
+        const glm::dvec3 mean =
+            air.direct_sun_xyz(scene.eye.height_m, straight_rad(direction), scene.sun.distance_au) /
+            (std::numbers::pi * sine * sine);
+        return kRec709FromXyz * mean * profile + sky(direction);
+    }
+    [[nodiscard]] glm::dvec3 moon(const glm::dvec3& direction) const {
+        const Moon& m = scene.moon;
+        const glm::dvec3 at = on_body(m.direction_enu, m.angular_radius_rad, direction);
+        const glm::dvec3 right = glm::normalize(glm::cross(m.direction_enu, {0.0, 0.0, 1.0}));
+        const glm::dvec3 normal =
+            right * at.x + glm::cross(right, m.direction_enu) * at.y - m.direction_enu * at.z;
+        const double lit = shaders64::lommel_seeliger(glm::dot(normal, m.to_sun_enu), at.z);
+        const glm::dvec3 face = night::moon_tint_rgb() * night::moon_face_cd_m2(m) * lit +
+                                night::earthshine_cd_m2(m.phase_angle_rad);
+        return face * air.transmittance_rgb(scene.eye.height_m, straight_rad(direction)) + sky(direction);
+    }
+
+    Scene scene;
+    LightTables tables;
+    sky::AirTables air;
+    SkyLight light;
+    shaders64::ToneParameters tone;
+};
+
+class DiscReference : public GlTest {
+  protected:
+    // Compares the pixels that lie well inside the disc and above the horizon.
+    void expect_drawn_as_computed(const char* name, Scene scene, bool is_sun, int most_codes) {
+        const glm::dvec3 body = is_sun ? scene.sun.direction_enu : scene.moon.direction_enu;
+        const double radius = is_sun ? scene.sun.angular_radius_rad : scene.moon.angular_radius_rad;
+        const Horizontal at = horizontal_of(seen(scene, body));
+        add_view(scene, symmetric_frustum(0.4, kSize, kSize),
+                 view_from_enu(at.azimuth_rad / kDegree, at.elevation_rad / kDegree, 20.0));
+        scene.stars.enabled = false;
+        Renderer renderer({{"only", kSize, kSize}}, undithered());
+        const double adaptation = renderer.prepare(scene).adaptation_cd_m2;
+        const Picture picture = draw(renderer, scene)[0];
+        const Reference reference(scene, adaptation);
+        int compared = 0, worst = 0, darkest = 255, brightest = 0;
+        for (int y = 0; y < kSize; ++y) {
+            for (int x = 0; x < kSize; ++x) {
+                const glm::dvec3 direction =
+                    glm::transpose(scene.views[0].view_from_enu) *
+                    view_direction(renderer.channels()[0], scene.views[0].frustum, x + 0.5, kSize - y - 0.5);
+                const glm::dvec3 place = reference.on_body(body, radius, direction);
+                if (std::hypot(place.x, place.y) > 0.96) continue;
+                if (horizontal_of(direction).elevation_rad < reference.light.horizon_elevation_rad + 2e-4)
+                    continue;
+                const glm::dvec3 rgb = is_sun ? reference.sun(direction) : reference.moon(direction);
+                const glm::dvec3 exact = shaders64::shown(rgb, reference.tone) * 255.0;
+                const Rgb drawn = picture.at(x, y);
+                worst = std::max(worst, static_cast<int>(std::ceil(std::max({std::abs(drawn.r - exact.x),
+                                                                             std::abs(drawn.g - exact.y),
+                                                                             std::abs(drawn.b - exact.z)}) -
+                                                                   0.5)));
+                darkest = std::min(darkest, drawn.g);
+                brightest = std::max(brightest, drawn.g);
+                ++compared;
+            }
+        }
+        std::printf("%-26s %5d pixels, green %3d..%3d: %d codes at most\n", name, compared, darkest,
+                    brightest, worst);
+        EXPECT_GT(compared, 500) << name;
+        EXPECT_LE(worst, most_codes) << name;
+    }
+};
+
+TEST_F(DiscReference, SunIsToneOfItsOwnLightOverItsSkyHoweverMuchOfItIsHidden) {
+    for (const double unobscured : {1.0, 0.3}) {
+        Scene hazy = make_scene(6.0, 200.0, -40.0, 20.0, 0.0);
+        hazy.air.visibility_m = 4000.0;
+        hazy.sun.unobscured = unobscured;
+        expect_drawn_as_computed("hazy Sun", hazy, true, 2);
+        hazy.sun.direction_enu = at(3.0, 200.0);
+        expect_drawn_as_computed("hazy Sun at 3 deg", hazy, true, 2);
+    }
+    expect_drawn_as_computed("Sun at FL360, 3.5 deg down", make_scene(-3.5, 200.0, -40.0, 20.0, 10972.8),
+                             true, 2);
+}
+
+TEST_F(DiscReference, MoonIsToneOfItsFaceOverTheSkyOfEachOfItsPoints) {
+    expect_drawn_as_computed("half Moon by day", make_scene(35.0, 120.0, 30.0, 210.0, 0.0), false, 2);
+    expect_drawn_as_computed("Moon low in twilight", make_scene(-3.0, 290.0, 2.0, 275.0, 100.0), false, 2);
+    expect_drawn_as_computed("full Moon rising at dusk", make_scene(-1.0, 280.0, 0.2, 100.0, 0.0), false, 2);
+    Scene high = make_scene(-4.0, 100.0, -3.2, 280.0, 10972.8);
+    expect_drawn_as_computed("Moon setting at FL360", high, false, 2);
+}
+
+}  // namespace
+}  // namespace skyig::render
