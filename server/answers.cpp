@@ -21,7 +21,8 @@ std::optional<transport::Endpoint> endpoint(const std::optional<config::UdpAddre
 
 }  // namespace
 
-Answers::Answers(const config::Host& host) : reply_to_(endpoint(host.reply_to)) {}
+Answers::Answers(const config::Host& host)
+    : reply_to_(host.enabled ? endpoint(host.reply_to) : std::nullopt) {}
 
 std::span<const std::byte> Answers::open_frame(cigi::Session& session, std::int64_t start_ns,
                                                bool late) noexcept {
@@ -33,8 +34,9 @@ std::span<const std::byte> Answers::open_frame(cigi::Session& session, std::int6
     return writer.bytes();
 }
 
-std::optional<transport::Endpoint> Answers::destination(const world::Link& link) const noexcept {
-    if (reply_to_) return reply_to_;
+std::optional<transport::Endpoint> Answers::destination(std::size_t source,
+                                                        const world::Link& link) const noexcept {
+    if (source == 0 && reply_to_) return reply_to_;
     if (link.state == world::LinkState::kWaiting) return std::nullopt;
     return link.host;
 }

@@ -26,9 +26,10 @@ class Answers {
     [[nodiscard]] std::span<const std::byte> open_frame(protocol::cigi::Session& session,
                                                         std::int64_t start_ns, bool late) noexcept;
 
-    /// The configured address, else the host that is obeyed or was last; nothing before the first.
+    /// To the host: the configured address, else the one that is obeyed or was last. To any other source in
+    /// control: whoever speaks for it. Nothing before the first, and nothing without a host.
     [[nodiscard]] std::optional<protocol::transport::Endpoint> destination(
-        const world::Link& link) const noexcept;
+        std::size_t source, const world::Link& link) const noexcept;
 
   private:
     std::optional<protocol::transport::Endpoint> reply_to_;

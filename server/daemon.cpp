@@ -12,40 +12,22 @@
 #include <string>
 #include <system_error>
 
-#include "protocol/transport/udp.h"
 #include "render/output/png.h"
 #include "server/clock.h"
 #include "server/endpoint_format.h"
 #include "server/frame_loop.h"
 #include "server/from_config.h"
 #include "server/gl_painter.h"
+#include "server/live_wire.h"
 #include "server/log.h"
 #include "server/stop_signal.h"
 
 namespace skyig::server {
 
-namespace transport = protocol::transport;
-
 namespace {
 
 /// Frames whose images may be under way at once: enough to bridge a slow file without holding much memory.
 constexpr std::size_t kImageBuffers = 3;
-
-template <class T>
-T value_or_throw(protocol::Result<T, std::string> result) {
-    if (!result) throw std::runtime_error(result.error());
-    return std::move(result).value();
-}
-
-UdpLink open_link(const config::Host& host) {
-    transport::UdpOptions options;
-    options.listen = {value_or_throw(transport::parse_ipv4(host.listen.address)), host.listen.port};
-    for (const config::UdpAddress& sender : host.allow)
-        options.allowed.push_back(value_or_throw(transport::parse_ipv4(sender.address)));
-    transport::UdpReceiver receiver = value_or_throw(transport::UdpReceiver::open(options));
-    transport::UdpSender sender = value_or_throw(receiver.make_sender());
-    return {std::move(receiver), std::move(sender)};
-}
 
 std::unique_ptr<ImageWriter> open_images(const DaemonOptions& options, const config::Config& config) {
     if (options.out_directory.empty()) return nullptr;
@@ -63,17 +45,34 @@ std::unique_ptr<ImageWriter> open_images(const DaemonOptions& options, const con
         });
 }
 
-void say_banner(Log& log, const config::Config& config, const GlPainter& painter, const UdpLink& link) {
+/// Who is heard where: "CIGI on udp 127.0.0.1:8004, answers to 127.0.0.1:8005; instructor on udp ...".
+std::string heard_text(const config::Config& config, const LiveWire& wire) {
+    std::string text = "no host";
+    if (const auto local = wire.local(0)) {
+        text = fmt::format("CIGI on udp {}, answers to {}", *local,
+                           config.host.reply_to ? fmt::format("{}:{}", config.host.reply_to->address,
+                                                              config.host.reply_to->port)
+                                                : std::string("the sender"));
+    }
+    for (std::size_t i = 0; i < config.sources.size(); ++i) {
+        const config::Source& source = config.sources[i];
+        if (const auto local = wire.local(i + 1)) {
+            fmt::format_to(std::back_inserter(text), "; {} on udp {}", source.name, *local);
+        } else {
+            fmt::format_to(std::back_inserter(text), "; {} on {}", source.name, source.interface);
+        }
+    }
+    return text;
+}
+
+void say_banner(Log& log, const config::Config& config, const GlPainter& painter, const LiveWire& wire) {
     std::string channels;
     for (const config::Channel& channel : config.channels) {
         fmt::format_to(std::back_inserter(channels), "{}{} {}x{}", channels.empty() ? "" : ", ", channel.name,
                        channel.width_px, channel.height_px);
     }
-    const std::string answers =
-        config.host.reply_to ? fmt::format("{}:{}", config.host.reply_to->address, config.host.reply_to->port)
-                             : std::string("the sender");
-    log.info("skyigd {}: OpenGL {}; channels {}; {:g} Hz; CIGI on udp {}, answers to {}", SKYIG_VERSION,
-             painter.description(), channels, config.daemon.rate_hz, link.local(), answers);
+    log.info("skyigd {}: OpenGL {}; channels {}; {:g} Hz; {}", SKYIG_VERSION, painter.description(), channels,
+             config.daemon.rate_hz, heard_text(config, wire));
 }
 
 void write_report(const std::string& path, const RunReport& report) {
@@ -88,12 +87,13 @@ void run(const DaemonOptions& options, const config::Config& config) {
     SystemClock clock;
     Log log(clock);
     world::World world(config, start_time(config.start, clock), log);
-    UdpLink link = open_link(config.host);
+    LiveWire wire(config);
+    ClockPace pace(clock, config.daemon.rate_hz);
     const std::unique_ptr<ImageWriter> images = open_images(options, config);
     GlPainter painter(render_channels(config), display_settings(config));
-    say_banner(log, config, painter, link);
+    say_banner(log, config, painter, wire);
 
-    FrameLoop loop(config, {clock, log, link, world, painter, images.get()}, options.frames,
+    FrameLoop loop(config, {clock, log, pace, wire, world, painter, images.get()}, options.frames,
                    options.out_every);
     loop.warm_up();
     loop.run([&stop] { return stop.requested(); });

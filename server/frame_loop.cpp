@@ -28,9 +28,8 @@ FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, 
       parts_(parts),
       frame_limit_(frame_limit),
       image_every_(image_every),
-      pacer_(config.daemon.rate_hz),
       answers_(config.host),
-      inbox_(parts.world, parts.log),
+      inbox_(config, parts.world, parts.log),
       times_(config.channels.size()) {}
 
 void FrameLoop::warm_up() {
@@ -41,33 +40,36 @@ void FrameLoop::warm_up() {
 
 void FrameLoop::run(const std::function<bool()>& stop) {
     while (!stop() && (frame_limit_ == 0 || frame_number_ < frame_limit_))
-        run_frame();
+        if (!run_frame()) return;
 }
 
-void FrameLoop::run_frame() {
-    const FramePacer::Slot slot = pacer_.next(parts_.clock.monotonic_ns());
-    parts_.clock.sleep_until_ns(slot.start_ns);
+bool FrameLoop::run_frame() {
+    const std::optional<FramePacer::Slot> next = parts_.pace.next();
+    if (!next) return false;
+    const FramePacer::Slot slot = *next;
     const std::int64_t start_ns = parts_.clock.monotonic_ns();
     if (frame_number_ == 0) first_start_ns_ = start_ns;
     ++frame_number_;
 
     answer_host(slot);
-    parts_.link.drain(inbox_);
-    parts_.world.advance(static_cast<double>(slot.slots) * pacer_.period_s());
+    parts_.wire.drain(inbox_);
+    parts_.world.advance(static_cast<double>(slot.slots) * parts_.pace.period_s());
     draw(scenes_.build(parts_.world, frame_number_));
     if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images();
 
     last_end_ns_ = parts_.clock.monotonic_ns();
     times_.frame().add(last_end_ns_ - start_ns);
     watch(slot);
+    return true;
 }
 
 void FrameLoop::answer_host(const FramePacer::Slot& slot) {
     const std::span<const std::byte> message =
         answers_.open_frame(parts_.world.session(), slot.start_ns, slot.late);
-    const auto destination = answers_.destination(parts_.world.control_link());
+    parts_.wire.open_frame({frame_number_, slot.slots, parts_.clock.utc_ns()}, message);
+    const auto destination = answers_.destination(parts_.world.control_source(), parts_.world.control_link());
     if (!destination) return;
-    if (parts_.link.send(*destination, message)) {
+    if (parts_.wire.send(parts_.world.control_source(), *destination, message)) {
         ++start_of_frame_sent_;
         return;
     }
@@ -109,7 +111,7 @@ void FrameLoop::watch(const FramePacer::Slot& slot) {
         ++watched_.late;
     }
     watched_.slots += slot.slots;
-    if (static_cast<double>(watched_.slots) * pacer_.period_s() < kWatchFor_s) return;
+    if (static_cast<double>(watched_.slots) * parts_.pace.period_s() < kWatchFor_s) return;
     tell_late_frames();
     tell_dropped_datagrams();
     tell_what_is_drawn_otherwise();
@@ -122,7 +124,7 @@ void FrameLoop::tell_late_frames() {
         "late frames", kRepeatAfter_s, Severity::kWarning,
         "{} of the last {} frames were late: {:g} Hz leaves {:.1f} ms, a frame has taken {:.1f} ms (median), "
         "{:.1f} ms (p95) since the start",
-        watched_.late, watched_.frames, config_.daemon.rate_hz, pacer_.period_s() * 1e3,
+        watched_.late, watched_.frames, config_.daemon.rate_hz, parts_.pace.period_s() * 1e3,
         times_.frame().quantile_ms(0.5), times_.frame().quantile_ms(0.95));
 }
 
@@ -141,18 +143,18 @@ void FrameLoop::tell_what_is_drawn_otherwise() {
 }
 
 void FrameLoop::tell_dropped_datagrams() {
-    const protocol::transport::UdpCounters now = parts_.link.counters();
-    if (now.not_allowed > told_link_.not_allowed) {
+    const protocol::transport::UdpCounters now = parts_.wire.counters();
+    if (now.not_allowed > told_wire_.not_allowed) {
         parts_.log.limited("sender not allowed", kRepeatAfter_s, Severity::kWarning,
                            "{} datagrams dropped: their senders are not in allow",
-                           now.not_allowed - told_link_.not_allowed);
+                           now.not_allowed - told_wire_.not_allowed);
     }
-    if (now.ring_full > told_link_.ring_full) {
+    if (now.ring_full > told_wire_.ring_full) {
         parts_.log.limited("ring full", kRepeatAfter_s, Severity::kWarning,
                            "{} datagrams dropped: they came faster than frames take them",
-                           now.ring_full - told_link_.ring_full);
+                           now.ring_full - told_wire_.ring_full);
     }
-    told_link_ = now;
+    told_wire_ = now;
 }
 
 RunReport FrameLoop::report() const {
@@ -200,7 +202,7 @@ void FrameLoop::report_host(RunReport& report) const {
             {std::string(cigi::count_name(static_cast<cigi::Count>(i))), counters.counts[i]});
     for (const world::NamedCounter& counter : world::kCounterNames)
         report.rejects.push_back({std::string(counter.name), parts_.world.counters().*counter.value});
-    const protocol::transport::UdpCounters received = parts_.link.counters();
+    const protocol::transport::UdpCounters received = parts_.wire.counters();
     report.rejects.push_back({"not_allowed", received.not_allowed});
     report.rejects.push_back({"ring_full", received.ring_full});
 }

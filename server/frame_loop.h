@@ -7,14 +7,14 @@
 #include "config/config.h"
 #include "server/answers.h"
 #include "server/clock.h"
-#include "server/frame_pacer.h"
-#include "server/host_link.h"
 #include "server/image_writer.h"
 #include "server/inbox.h"
 #include "server/log.h"
+#include "server/pace.h"
 #include "server/painter.h"
 #include "server/report.h"
 #include "server/scene_builder.h"
+#include "server/wire.h"
 #include "server/world/world.h"
 
 namespace skyig::server {
@@ -23,7 +23,8 @@ namespace skyig::server {
 struct FrameLoopParts {
     Clock& clock;
     Log& log;
-    HostLink& link;
+    Pace& pace;
+    Wire& wire;
     world::World& world;
     Painter& painter;
     /// Null: no pictures are written.
@@ -42,11 +43,11 @@ class FrameLoop {
     /// due. Not counted, not told to the host.
     void warm_up();
 
-    /// Runs frames until the limit is reached or `stop` says so (asked once a frame).
+    /// Runs frames until the limit is reached, the pace ends or `stop` says so (asked once a frame).
     void run(const std::function<bool()>& stop);
 
-    /// Waits for the next frame's start and runs it.
-    void run_frame();
+    /// Waits for the next frame's start and runs it. \return false when there is none any more
+    bool run_frame();
 
     /// Everything counted so far; the images' counts are final once the writer has finished.
     [[nodiscard]] RunReport report() const;
@@ -66,7 +67,6 @@ class FrameLoop {
     std::uint64_t frame_limit_;
     std::uint64_t image_every_;
 
-    FramePacer pacer_;
     Answers answers_;
     Inbox inbox_;
     SceneBuilder scenes_;
@@ -86,7 +86,7 @@ class FrameLoop {
         std::uint64_t late = 0;
     };
     Watched watched_;
-    protocol::transport::UdpCounters told_link_;
+    protocol::transport::UdpCounters told_wire_;
 };
 
 }  // namespace skyig::server

@@ -19,8 +19,8 @@ constexpr double kRepeatAfter_s = 10.0;
 /// Hands the packets of one message to the world and sees what passes by.
 class Inbox::Handler {
   public:
-    Handler(Inbox& inbox, const transport::Endpoint& from) : inbox_(inbox), from_(from) {
-        inbox_.world_.begin_message(0, from);
+    Handler(Inbox& inbox, std::size_t source, const transport::Endpoint& from) : inbox_(inbox), from_(from) {
+        inbox_.world_.begin_message(source, from);
     }
 
     template <class P>
@@ -54,10 +54,19 @@ class Inbox::Handler {
     transport::Endpoint from_;
 };
 
-void Inbox::take(const transport::Datagram& datagram) {
+Inbox::Inbox(const config::Config& config, world::World& world, Log& log)
+    : world_(world), log_(log), buses_(config.sources.size() + 1) {
+    for (std::size_t i = 0; i < config.sources.size(); ++i) {
+        const config::Source& source = config.sources[i];
+        if (source.kind == config::SourceKind::kCanAerospace)
+            buses_[i + 1] = std::make_unique<BusInput>(i + 1, identifier_map(source), world);
+    }
+}
+
+void Inbox::take(std::size_t source, const transport::Datagram& datagram) {
     ++datagrams_;
     const cigi::MessageSummary summary =
-        cigi::decode_host_message(datagram.bytes, Handler(*this, datagram.from), counters_);
+        cigi::decode_host_message(datagram.bytes, Handler(*this, source, datagram.from), counters_);
     if (!summary.fault) return;
     if (summary.accepted) {
         log_.limited("message cut short", kRepeatAfter_s, Severity::kWarning,
@@ -68,6 +77,10 @@ void Inbox::take(const transport::Datagram& datagram) {
                      "datagram of {} bytes from {} dropped: {}", datagram.bytes.size(), datagram.from,
                      cigi::count_text(*summary.fault));
     }
+}
+
+void Inbox::take(std::size_t source, const protocol::CanFrame& frame) {
+    if (buses_[source]) buses_[source]->take(frame);
 }
 
 }  // namespace skyig::server

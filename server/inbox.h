@@ -3,23 +3,31 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <vector>
 
+#include "config/config.h"
 #include "protocol/cigi/counters.h"
-#include "server/host_link.h"
+#include "server/bus_input.h"
 #include "server/log.h"
 #include "server/report.h"
+#include "server/wire.h"
 #include "server/world/world.h"
 
 namespace skyig::server {
 
-class Inbox final : public DatagramTaker {
+class Inbox final : public ArrivalTaker {
   public:
-    Inbox(world::World& world, Log& log) noexcept : world_(world), log_(log) {}
+    /// \throws std::runtime_error with one line when a bus's identifiers cannot be used
+    Inbox(const config::Config& config, world::World& world, Log& log);
 
-    void take(const protocol::transport::Datagram& datagram) override;
+    void take(std::size_t source, const protocol::transport::Datagram& datagram) override;
+    void take(std::size_t source, const protocol::CanFrame& frame) override;
 
     [[nodiscard]] const protocol::cigi::Counters& counters() const noexcept { return counters_; }
     [[nodiscard]] const FramesBehind& frames_behind() const noexcept { return frames_behind_; }
+    /// The bus of a source, or null.
+    [[nodiscard]] const BusInput* bus(std::size_t source) const noexcept { return buses_[source].get(); }
     [[nodiscard]] std::uint64_t datagrams() const noexcept { return datagrams_; }
 
   private:
@@ -30,6 +38,8 @@ class Inbox final : public DatagramTaker {
     protocol::cigi::Counters counters_;
     FramesBehind frames_behind_;
     std::uint64_t datagrams_ = 0;
+    /// By source; null where it is no bus.
+    std::vector<std::unique_ptr<BusInput>> buses_;
 };
 
 }  // namespace skyig::server

@@ -70,6 +70,9 @@ class OwnshipTrack {
     /// The pose at the world's time `now_s`; bit for bit the reported one where nothing is to be carried on.
     [[nodiscard]] Pose at(double now_s) const noexcept;
 
+    /// The pose as it was reported last.
+    [[nodiscard]] const Pose& told() const noexcept { return pose_; }
+
     /// Another sender, or a new start: nothing of before is used but the pose.
     void reset(const Pose& pose) noexcept;
 

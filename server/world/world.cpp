@@ -248,6 +248,15 @@ void World::operator()(const cigi::EntityPosition& packet) {
     place_ownship(packet.attach_state, pose_of(packet));
 }
 
+bool World::is_drawn(const ephemeris::Geodetic& position) {
+    if (ephemeris::is_valid(position)) return true;
+    ++counters_.position_refused;
+    log_.limited("position refused", kRepeatAfter_s, Severity::kWarning,
+                 "ownship at {} m ignored: heights from {} to {} m can be drawn", position.height_m,
+                 ephemeris::kMinEyeHeight_m, ephemeris::kMaxEyeHeight_m);
+    return false;
+}
+
 void World::place_ownship(bool attached, const Pose& pose) {
     if (attached) {
         ++counters_.ownship_attached;
@@ -255,13 +264,7 @@ void World::place_ownship(bool attached, const Pose& pose) {
                      "the ownship is attached to another entity: not supported, its last place is held");
         return;
     }
-    if (!ephemeris::is_valid(pose.position)) {
-        ++counters_.position_refused;
-        log_.limited("position refused", kRepeatAfter_s, Severity::kWarning,
-                     "ownship at {} m ignored: heights from {} to {} m can be drawn", pose.position.height_m,
-                     ephemeris::kMinEyeHeight_m, ephemeris::kMaxEyeHeight_m);
-        return;
-    }
+    if (!is_drawn(pose.position)) return;
     if (track_source_ != source_) track_.reset(pose);
     track_source_ = source_;
     const std::optional<double> stamp_s = ownship_smoothed_ ? stamp_s_ : std::nullopt;

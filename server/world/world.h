@@ -12,6 +12,7 @@
 #include "server/ephemeris/time.h"
 #include "server/log.h"
 #include "server/world/authority.h"
+#include "server/world/reports.h"
 #include "server/world/state.h"
 #include "server/world/utc_clock.h"
 #include "server/world/views.h"
@@ -47,6 +48,14 @@ class World {
     void operator()(const protocol::cigi::ViewControl& packet);
     void operator()(const protocol::cigi::ViewDefinition& packet);
 
+    /// A source that speaks no CIGI lives, and what it says. Taken where the source has the say, unless a
+    /// living host keeps the world in Standby.
+    void heard(std::size_t source);
+    void report(std::size_t source, const OwnshipReport& report);
+    void report(std::size_t source, const AirReport& report);
+    void report(std::size_t source, const protocol::cigi::WeatherControl& layer);
+    void report_time(std::size_t source, const ephemeris::UtcClockTime& utc, bool running);
+
     /// Moves time on by `step_s` >= 0: clock, link supervision.
     void advance(double step_s);
 
@@ -63,9 +72,10 @@ class World {
     [[nodiscard]] const protocol::cigi::Session& session() const noexcept { return session_; }
     [[nodiscard]] Link link(std::size_t source = 0) const noexcept;
     /// The source in control, or was last; the host's before the first.
-    [[nodiscard]] Link control_link() const noexcept {
-        return link(authority_.holder(config::Aspect::kControl).value_or(0));
+    [[nodiscard]] std::size_t control_source() const noexcept {
+        return authority_.holder(config::Aspect::kControl).value_or(0);
     }
+    [[nodiscard]] Link control_link() const noexcept { return link(control_source()); }
     [[nodiscard]] const Authority& authority() const noexcept { return authority_; }
     [[nodiscard]] const Ownship& ownship() const noexcept { return ownship_; }
     [[nodiscard]] const UtcClock& clock() const noexcept { return clock_; }
@@ -103,6 +113,9 @@ class World {
     void reset();
     void supervise(double step_s);
     void place_ownship(bool attached, const Pose& pose);
+    /// False, and counted, for a place that cannot be drawn.
+    [[nodiscard]] bool is_drawn(const ephemeris::Geodetic& position);
+    [[nodiscard]] bool listens(std::size_t source, config::Aspect aspect) noexcept;
     void note_view(ViewResult result, std::uint16_t view_id);
     void note_clock_step(const ephemeris::UtcClockTime& before);
 

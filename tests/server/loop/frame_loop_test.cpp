@@ -51,14 +51,18 @@ class FakePainter final : public Painter {
     ManualClock& clock_;
 };
 
-class FakeLink final : public HostLink {
+class FakeWire final : public Wire {
   public:
-    void drain(DatagramTaker& taker) override {
+    void open_frame(const FrameMark& mark, std::span<const std::byte> /*message*/) override {
+        last_mark = mark;
+    }
+    void drain(ArrivalTaker& taker) override {
         for (std::size_t i = 0; i < waiting_count; ++i)
-            taker.take({waiting_from, 0, std::span(waiting[i])});
+            taker.take(0, transport::Datagram{waiting_from, 0, std::span(waiting[i])});
         waiting_count = 0;
     }
-    bool send(const transport::Endpoint& to, std::span<const std::byte> bytes) override {
+    bool send(std::size_t /*source*/, const transport::Endpoint& to,
+              std::span<const std::byte> bytes) override {
         last_to = to;
         last_bytes = bytes.size();
         std::copy(bytes.begin(), bytes.end(), last_message.begin());
@@ -84,6 +88,7 @@ class FakeLink final : public HostLink {
     int sends = 0;
     bool sending_works = true;
     transport::UdpCounters received;
+    FrameMark last_mark;
 };
 
 /// A host's message: IG Control and, in Operate, the ownship.
@@ -130,7 +135,7 @@ class FrameLoopTest : public ::testing::Test {
     FrameLoop& loop(std::uint64_t frames = 0, ImageWriter* images = nullptr, std::uint64_t every = 1) {
         world_ = std::make_unique<world::World>(config_, start_time(config_.start, clock_), log_);
         loop_ = std::make_unique<FrameLoop>(
-            config_, FrameLoopParts{clock_, log_, link_, *world_, painter_, images}, frames, every);
+            config_, FrameLoopParts{clock_, log_, pace_, link_, *world_, painter_, images}, frames, every);
         return *loop_;
     }
 
@@ -158,7 +163,8 @@ class FrameLoopTest : public ::testing::Test {
     config::Config config_ = config::default_config();
     ManualClock clock_{5'000'000'000};
     Log log_{clock_, [this](Severity, std::string_view line) { lines_.emplace_back(line); }};
-    FakeLink link_;
+    ClockPace pace_{clock_, 100.0};
+    FakeWire link_;
     FakePainter painter_{clock_};
     std::unique_ptr<world::World> world_;
     std::unique_ptr<FrameLoop> loop_;
