@@ -112,10 +112,10 @@ render::Scene SceneBuilder::build(const world::World& world, std::uint64_t frame
     scene.time_s = world.time_s();
     place_eye(world, scene);
     aim_views(world, scene);
-    const ephemeris::Instant instant = ephemeris::make_instant(world.clock().utc());
-    date_clamped_ = instant.clamped;
+    const ephemeris::UtcClockTime& utc = world.clock().utc();
+    instant_ = ephemeris::make_instant(utc, orientation_.at(utc));
     const ephemeris::Geodetic eye{scene.eye.latitude_deg, scene.eye.longitude_deg, scene.eye.height_m};
-    light(clockwork_.state(instant, eye), world.celestial(), scene);
+    light(clockwork_.state(instant_, eye), world.celestial(), scene);
     scene.air = air_of(world.air());
     return scene;
 }
