@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 
 #include "config/document.h"
@@ -28,6 +29,11 @@ std::string_view output_name(OutputKind kind) {
     return "headless";
 }
 
+/// A path in the settings is meant from where they stand.
+std::string beside(const std::string& settings_file, const std::string& path) {
+    return path.empty() ? path : (std::filesystem::path(settings_file).parent_path() / path).string();
+}
+
 }  // namespace
 
 LoadResult parse_config(std::string_view text, const std::string& file_name) {
@@ -37,6 +43,7 @@ LoadResult parse_config(std::string_view text, const std::string& file_name) {
     ErrorList errors(file_name);
     LoadResult result;
     Config config = read_config(root, errors);
+    config.ephemeris.earth_orientation = beside(file_name, config.ephemeris.earth_orientation);
     if (errors.empty()) {
         result.config = std::move(config);
     } else {

@@ -67,6 +67,16 @@ struct Sky {
     double star_intensity_pct = 100.0;
 };
 
+/// From cheap to good.
+enum class EphemerisModel { kAlmanac, kErfa, kSeries };
+
+struct Ephemeris {
+    EphemerisModel model = EphemerisModel::kSeries;
+    /// File of UT1 and pole, as a path from where the program runs (the file's is from where the settings
+    /// are); empty: none. What it holds is read and checked by who uses it.
+    std::string earth_orientation;
+};
+
 struct Display {
     /// Luminance of full white on the screen, 1..10000.
     double max_luminance_cd_m2 = 350.0;
@@ -103,6 +113,7 @@ struct Config {
     Start start;
     Air air;
     Sky sky;
+    Ephemeris ephemeris;
     Display display;
     Eye eye;
     Output output;

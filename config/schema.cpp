@@ -8,6 +8,7 @@ namespace skyig::config {
 namespace {
 
 constexpr std::array<std::string_view, 2> kToneNames{"hybrid", "linear"};
+constexpr std::array<std::string_view, 3> kModelNames{"almanac", "erfa", "series"};
 constexpr std::array<std::string_view, 1> kOutputNames{"headless"};
 
 /// The table of that name below the root; an error if the key holds something else.
@@ -91,6 +92,16 @@ void read_sky(TableReader table, Sky& sky) {
     table.finish();
 }
 
+void read_ephemeris(TableReader table, Ephemeris& ephemeris) {
+    std::size_t index = 0;
+    if (table.choice("model", index, kModelNames) != nullptr)
+        ephemeris.model = static_cast<EphemerisModel>(index);
+    const Value* value = table.text("earth_orientation", ephemeris.earth_orientation);
+    if (value != nullptr && ephemeris.earth_orientation.empty())
+        table.error(*value, "earth_orientation", "is empty; it must name a file, or be left out");
+    table.finish();
+}
+
 void read_gamma(TableReader& table, std::optional<double>& gamma) {
     const Value* value = table.any("gamma");
     if (value == nullptr) return;
@@ -144,6 +155,7 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_start(open_table(root, errors, "start"), config.start);
     read_air(open_table(root, errors, "air"), config.air);
     read_sky(open_table(root, errors, "sky"), config.sky);
+    read_ephemeris(open_table(root, errors, "ephemeris"), config.ephemeris);
     read_display(open_table(root, errors, "display"), config.display);
     read_eye(open_table(root, errors, "eye"), config.eye);
     read_output(open_table(root, errors, "output"), config.output);

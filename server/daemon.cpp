@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "render/output/png.h"
 #include "server/clock.h"
@@ -82,7 +83,8 @@ void write_report(const std::string& path, const RunReport& report) {
     if (!file) throw std::runtime_error(fmt::format("{}: the report cannot be written", path));
 }
 
-void run(const DaemonOptions& options, const config::Config& config) {
+void run(const DaemonOptions& options, const config::Config& config,
+         ephemeris::EarthOrientation orientation) {
     StopSignal stop;
     SystemClock clock;
     Log log(clock);
@@ -94,7 +96,8 @@ void run(const DaemonOptions& options, const config::Config& config) {
     say_banner(log, config, painter, wire);
 
     FrameLoop loop(config, {clock, log, pace, wire, world, painter, images.get()}, options.frames,
-                   options.out_every);
+                   options.out_every, std::move(orientation));
+    log.info("ephemeris {}", loop.report().ephemeris_text());
     loop.warm_up();
     loop.run([&stop] { return stop.requested(); });
     if (images) images->finish();
@@ -107,11 +110,12 @@ void run(const DaemonOptions& options, const config::Config& config) {
 
 }  // namespace
 
-int run_daemon(const DaemonOptions& options, const config::Config& config) {
+int run_daemon(const DaemonOptions& options, const config::Config& config,
+               ephemeris::EarthOrientation orientation) {
     // Who reads our lines may go at any time: that is a failed write, not our end.
     std::signal(SIGPIPE, SIG_IGN);
     try {
-        run(options, config);
+        run(options, config, std::move(orientation));
         return 0;
     } catch (const std::exception& error) {
         fmt::print(stderr, "skyigd: {}\n", error.what());

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "config/config.h"
+#include "server/ephemeris/earth_orientation.h"
 
 namespace skyig::server {
 
@@ -23,8 +24,10 @@ struct DaemonOptions {
 };
 
 /// Runs until the frames asked for are done or SIGINT or SIGTERM comes; then tells the report on stdout.
+/// \param orientation  what load_earth_orientation() gives
 /// \return the exit status: 0, or 1 after one line on stderr when something the work needs is missing (a
 /// port, a display, a directory)
-[[nodiscard]] int run_daemon(const DaemonOptions& options, const config::Config& config);
+[[nodiscard]] int run_daemon(const DaemonOptions& options, const config::Config& config,
+                             ephemeris::EarthOrientation orientation = {});
 
 }  // namespace skyig::server

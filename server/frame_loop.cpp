@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "server/endpoint_format.h"
+#include "server/from_config.h"
 
 namespace skyig::server {
 
@@ -20,22 +23,36 @@ std::string protocol_text(const cigi::Session& session) {
                        session.host_order() == cigi::ByteOrder::kBig ? "big" : "little");
 }
 
+std::string day_text(double mjd) {
+    constexpr double kUnixEpochMjd = 40587.0;
+    constexpr double kSecondsPerDay = 86400.0;
+    const auto since_1970_s = static_cast<std::int64_t>((mjd - kUnixEpochMjd) * kSecondsPerDay);
+    return ephemeris::to_iso(ephemeris::UtcClockTime::from_unix(since_1970_s)).substr(0, 10);
+}
+
+std::string days_text(const ephemeris::EarthOrientation& orientation) {
+    if (orientation.empty()) return {};
+    return fmt::format("{}..{}", day_text(orientation.first_mjd()), day_text(orientation.last_mjd()));
+}
+
 }  // namespace
 
 FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, std::uint64_t frame_limit,
-                     std::uint64_t image_every)
+                     std::uint64_t image_every, ephemeris::EarthOrientation orientation)
     : config_(config),
       parts_(parts),
       frame_limit_(frame_limit),
       image_every_(image_every),
       answers_(config.host),
       inbox_(config, parts.world, parts.log),
+      scenes_(ephemeris_model(config), std::move(orientation)),
       times_(config.channels.size()) {}
 
 void FrameLoop::warm_up() {
     parts_.painter.prepare(scenes_.build(parts_.world, 0));
     for (std::size_t channel = 0; channel < config_.channels.size(); ++channel)
         parts_.painter.draw(channel);
+    tell_date();
 }
 
 void FrameLoop::run(const std::function<bool()>& stop) {
@@ -129,10 +146,7 @@ void FrameLoop::tell_late_frames() {
 }
 
 void FrameLoop::tell_what_is_drawn_otherwise() {
-    if (scenes_.date_clamped()) {
-        parts_.log.limited("date clamped", kRepeatAfter_s, Severity::kWarning,
-                           "the world's date is outside 1900..2100: the sky of the nearest end is drawn");
-    }
+    tell_date();
     if (scenes_.eye_spread_m() > config::kMaxEyeSpread_m) {
         parts_.log.limited(
             "eye spread", kRepeatAfter_s, Severity::kWarning,
@@ -140,6 +154,18 @@ void FrameLoop::tell_what_is_drawn_otherwise() {
             "beyond {:g} m use a daemon of its own",
             scenes_.eye_spread_m(), config::kMaxEyeSpread_m);
     }
+}
+
+/// Once each time that the world's date goes there.
+void FrameLoop::tell_date() {
+    if (scenes_.date_clamped() && !told_clamped_)
+        parts_.log.warning("the world's date is outside 1900..2100: the sky of the nearest end is drawn");
+    told_clamped_ = scenes_.date_clamped();
+    if (scenes_.leap_seconds_assumed() && !told_leap_seconds_) {
+        parts_.log.info(
+            "the world's date is beyond the announced leap seconds: TT - UTC is held at its last value");
+    }
+    told_leap_seconds_ = scenes_.leap_seconds_assumed();
 }
 
 void FrameLoop::tell_dropped_datagrams() {
@@ -173,6 +199,7 @@ RunReport FrameLoop::report() const {
     report.times.push_back(time_row("frame", times_.frame()));
     report.start_of_frame_sent = start_of_frame_sent_;
     report.start_of_frame_failed = start_of_frame_failed_;
+    report_ephemeris(report);
     report_host(report);
     if (parts_.images != nullptr) {
         const ImageWriter::Counts images = parts_.images->counts();
@@ -181,6 +208,13 @@ RunReport FrameLoop::report() const {
         report.image_frames_skipped = images.skipped;
     }
     return report;
+}
+
+void FrameLoop::report_ephemeris(RunReport& report) const {
+    report.ephemeris = ephemeris::name_of(ephemeris_model(config_));
+    report.earth_orientation = days_text(scenes_.orientation());
+    report.date_clamped = scenes_.date_clamped();
+    report.leap_seconds_assumed = scenes_.leap_seconds_assumed();
 }
 
 void FrameLoop::report_host(RunReport& report) const {

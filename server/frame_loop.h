@@ -36,8 +36,9 @@ class FrameLoop {
   public:
     /// \param frame_limit  frames to run, 0 = no limit
     /// \param image_every  images of each n-th frame are written, at least 1
+    /// \param orientation  UT1 and pole as measured, what load_earth_orientation() gives
     FrameLoop(const config::Config& config, const FrameLoopParts& parts, std::uint64_t frame_limit,
-              std::uint64_t image_every);
+              std::uint64_t image_every, ephemeris::EarthOrientation orientation = {});
 
     /// Draws the world as it stands once, so that tables and programs are there before the first frame is
     /// due. Not counted, not told to the host.
@@ -60,6 +61,8 @@ class FrameLoop {
     void tell_late_frames();
     void tell_dropped_datagrams();
     void tell_what_is_drawn_otherwise();
+    void tell_date();
+    void report_ephemeris(RunReport& report) const;
     void report_host(RunReport& report) const;
 
     const config::Config& config_;
@@ -86,6 +89,9 @@ class FrameLoop {
         std::uint64_t late = 0;
     };
     Watched watched_;
+    /// What has been said of the date, until it is said anew.
+    bool told_clamped_ = false;
+    bool told_leap_seconds_ = false;
     protocol::transport::UdpCounters told_wire_;
 };
 

@@ -27,6 +27,28 @@ std::vector<render::Channel> render_channels(const config::Config& config) {
     return channels;
 }
 
+ephemeris::Model ephemeris_model(const config::Config& config) noexcept {
+    switch (config.ephemeris.model) {
+        case config::EphemerisModel::kAlmanac:
+            return ephemeris::Model::kAlmanac;
+        case config::EphemerisModel::kErfa:
+            return ephemeris::Model::kErfa;
+        case config::EphemerisModel::kSeries:
+            break;
+    }
+    return ephemeris::Model::kSeries;
+}
+
+ephemeris::EarthOrientationResult load_earth_orientation(const config::Config& config,
+                                                         const std::string& settings_file) {
+    const std::string& path = config.ephemeris.earth_orientation;
+    if (path.empty()) return {ephemeris::EarthOrientation{}, {}};
+    ephemeris::EarthOrientationResult result = ephemeris::read_earth_orientation(path);
+    if (!result)
+        result.error = config::to_text({settings_file, 0, 0, "ephemeris.earth_orientation", result.error});
+    return result;
+}
+
 render::DisplaySettings display_settings(const config::Config& config) {
     render::DisplaySettings settings;
     settings.max_luminance_cd_m2 = config.display.max_luminance_cd_m2;

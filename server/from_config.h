@@ -1,12 +1,15 @@
 // The site's settings in the words of those that work with them.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "config/config.h"
 #include "render/channel.h"
 #include "render/display.h"
 #include "server/clock.h"
+#include "server/ephemeris/bodies.h"
+#include "server/ephemeris/earth_orientation.h"
 #include "server/ephemeris/time.h"
 
 namespace skyig::server {
@@ -15,6 +18,13 @@ namespace skyig::server {
 [[nodiscard]] ephemeris::UtcClockTime start_time(const config::Start& start, const Clock& clock);
 
 [[nodiscard]] std::vector<render::Channel> render_channels(const config::Config& config);
+
+[[nodiscard]] ephemeris::Model ephemeris_model(const config::Config& config) noexcept;
+
+/// The file that the settings name, read and checked; without one, one that knows nothing. Its error is a
+/// line that names the key too; `settings_file` only names the settings in it.
+[[nodiscard]] ephemeris::EarthOrientationResult load_earth_orientation(const config::Config& config,
+                                                                       const std::string& settings_file);
 
 [[nodiscard]] render::DisplaySettings display_settings(const config::Config& config);
 

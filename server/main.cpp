@@ -6,9 +6,11 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "config/config.h"
 #include "server/daemon.h"
+#include "server/from_config.h"
 
 namespace {
 
@@ -69,11 +71,17 @@ int run(int argc, char** argv) {
     for (const skyig::config::ConfigError& error : loaded.errors)
         fmt::print(stderr, "{}\n", skyig::config::to_text(error));
     if (!loaded.config) return kWrongUsage;
+    skyig::server::ephemeris::EarthOrientationResult orientation =
+        skyig::server::load_earth_orientation(*loaded.config, options->config_path);
+    if (!orientation) {
+        fmt::print(stderr, "{}\n", orientation.error);
+        return kWrongUsage;
+    }
     if (options->check) {
         fmt::print("{}\n", skyig::config::describe(*loaded.config));
         return kDone;
     }
-    return skyig::server::run_daemon(*options, *loaded.config);
+    return skyig::server::run_daemon(*options, *loaded.config, std::move(*orientation.orientation));
 }
 
 }  // namespace

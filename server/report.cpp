@@ -49,6 +49,12 @@ nlohmann::ordered_json counts_json(const std::vector<NamedCount>& counts) {
 
 }  // namespace
 
+std::string RunReport::ephemeris_text() const {
+    return earth_orientation.empty()
+               ? fmt::format("{}, Earth orientation by the built-in tables", ephemeris)
+               : fmt::format("{}, Earth orientation measured {}", ephemeris, earth_orientation);
+}
+
 std::string to_table(const RunReport& report) {
     std::string text;
     const auto out = std::back_inserter(text);
@@ -74,6 +80,9 @@ std::string to_table(const RunReport& report) {
                    report.start_of_frame_failed);
     fmt::format_to(out, "images          {} written, {} failed, {} frames skipped\n", report.images_written,
                    report.images_failed, report.image_frames_skipped);
+    fmt::format_to(out, "ephemeris       {}{}{}\n", report.ephemeris_text(),
+                   report.date_clamped ? "; the date is brought into 1900..2100" : "",
+                   report.leap_seconds_assumed ? "; leap seconds are held at the last announced" : "");
     if (report.gl_errors > 0) fmt::format_to(out, "GL errors       {}\n", report.gl_errors);
     return text;
 }
@@ -107,6 +116,10 @@ std::string to_json(const RunReport& report) {
                       {"failed", report.images_failed},
                       {"frames_skipped", report.image_frames_skipped}};
     json["gl_errors"] = report.gl_errors;
+    json["ephemeris"] = {{"model", report.ephemeris},
+                         {"earth_orientation", report.earth_orientation},
+                         {"date_clamped", report.date_clamped},
+                         {"leap_seconds_assumed", report.leap_seconds_assumed}};
     return json.dump(2) + '\n';
 }
 

@@ -94,6 +94,17 @@ struct RunReport {
     /// Frames whose images were skipped because every buffer was under way.
     std::uint64_t image_frames_skipped = 0;
     std::uint64_t gl_errors = 0;
+
+    /// "series"
+    std::string ephemeris;
+    /// Days of the file of Earth orientation, "1962-01-01..2026-08-21"; empty without one.
+    std::string earth_orientation;
+    /// Of the last frame: its date was brought into 1900..2100, lay beyond the announced leap seconds.
+    bool date_clamped = false;
+    bool leap_seconds_assumed = false;
+
+    /// "series, Earth orientation measured 1962-01-01..2026-08-21"
+    [[nodiscard]] std::string ephemeris_text() const;
 };
 
 /// The table for people, several lines, each with its end. Counts that are zero are left out of the lists.

@@ -42,6 +42,24 @@ render::Frustum frustum_of(const world::HalfAngles& angles) noexcept {
             angles.top_deg * kRadPerDeg};
 }
 
+/// Mean Johnson B-V of Mercury, Venus, Mars, Jupiter, Saturn (Allen's Astrophysical Quantities, 4th edition
+/// 2000).
+constexpr std::array<double, render::kPlanetCount> kPlanetBv{0.93, 0.82, 1.36, 0.83, 1.04};
+static_assert(render::kPlanetCount == ephemeris::kPlanetCount, "one order of planets in sky and scene");
+
+void light_moon(const ephemeris::MoonState& state, render::Moon& moon) noexcept {
+    moon.direction_enu = state.direction_enu;
+    moon.distance_km = state.distance_km;
+    moon.angular_radius_rad = state.angular_radius_rad;
+    moon.to_sun_enu = state.to_sun_enu;
+    moon.phase_angle_rad = state.phase_angle_rad;
+    moon.enu_from_selenographic = state.enu_from_selenographic;
+    moon.shadow_axis_enu = state.shadow_axis_enu;
+    moon.umbra_radius = state.umbra_radius;
+    moon.penumbra_radius = state.penumbra_radius;
+    moon.sunlit = state.sunlit;
+}
+
 void light(const ephemeris::SkyState& sky, const world::CelestialSwitches& switches,
            render::Scene& scene) noexcept {
     scene.sun.enabled = switches.sun;
@@ -52,17 +70,18 @@ void light(const ephemeris::SkyState& sky, const world::CelestialSwitches& switc
     scene.sun.unobscured = switches.moon ? 1.0 - sky.sun.obscured : 1.0;
 
     scene.moon.enabled = switches.moon;
-    scene.moon.direction_enu = sky.moon.direction_enu;
-    scene.moon.distance_km = sky.moon.distance_km;
-    scene.moon.angular_radius_rad = sky.moon.angular_radius_rad;
-    scene.moon.to_sun_enu = sky.moon.to_sun_enu;
-    scene.moon.phase_angle_rad = sky.moon.phase_angle_rad;
+    light_moon(sky.moon, scene.moon);
 
     scene.stars.enabled = switches.stars;
     scene.stars.intensity = switches.star_intensity;
     scene.stars.enu_from_gcrs = sky.enu_from_gcrs;
     scene.stars.earth_velocity_c = sky.earth_velocity_c;
     scene.stars.years_since_j2000 = sky.years_since_j2000;
+    for (std::size_t i = 0; i < render::kPlanetCount; ++i) {
+        scene.planets[i] = {.direction_enu = sky.planets[i].direction_enu,
+                            .magnitude = sky.planets[i].magnitude,
+                            .bv = kPlanetBv[i]};
+    }
 }
 
 render::Air air_of(const world::AirState& state) noexcept {
@@ -93,10 +112,10 @@ render::Scene SceneBuilder::build(const world::World& world, std::uint64_t frame
     scene.time_s = world.time_s();
     place_eye(world, scene);
     aim_views(world, scene);
-    const ephemeris::Instant instant = ephemeris::make_instant(world.clock().utc());
-    date_clamped_ = instant.clamped;
+    const ephemeris::UtcClockTime& utc = world.clock().utc();
+    instant_ = ephemeris::make_instant(utc, orientation_.at(utc));
     const ephemeris::Geodetic eye{scene.eye.latitude_deg, scene.eye.longitude_deg, scene.eye.height_m};
-    light(clockwork_.state(instant, eye), world.celestial(), scene);
+    light(clockwork_.state(instant_, eye), world.celestial(), scene);
     scene.air = air_of(world.air());
     return scene;
 }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "render/scene.h"
+#include "server/ephemeris/earth_orientation.h"
 #include "server/ephemeris/sky_clockwork.h"
 #include "server/world/world.h"
 
@@ -28,24 +30,34 @@ struct SkyAngles {
 /// yaw, pitch, roll. Allocates nothing. Cost: under 5 microseconds while time runs on.
 class SceneBuilder {
   public:
+    /// \param model  which series place the bodies
+    /// \param orientation  UT1 and pole as measured; without rows the built-in tables hold
+    explicit SceneBuilder(ephemeris::Model model = ephemeris::Model::kSeries,
+                          ephemeris::EarthOrientation orientation = {}) noexcept
+        : orientation_(std::move(orientation)), clockwork_(model) {}
+
     [[nodiscard]] render::Scene build(const world::World& world, std::uint64_t frame_number);
 
     /// Largest distance of a view's eye point from the one eye that is drawn, in the last scene.
     [[nodiscard]] double eye_spread_m() const noexcept { return eye_spread_m_; }
     /// The last scene's date lay outside what the ephemeris knows and was brought to the nearest that it
     /// does.
-    [[nodiscard]] bool date_clamped() const noexcept { return date_clamped_; }
+    [[nodiscard]] bool date_clamped() const noexcept { return instant_.clamped; }
+    /// The last scene's date lies beyond the announced leap seconds.
+    [[nodiscard]] bool leap_seconds_assumed() const noexcept { return instant_.leap_seconds_assumed; }
+    [[nodiscard]] const ephemeris::EarthOrientation& orientation() const noexcept { return orientation_; }
 
   private:
     void place_eye(const world::World& world, render::Scene& scene);
     void aim_views(const world::World& world, render::Scene& scene) noexcept;
 
+    ephemeris::EarthOrientation orientation_;
     ephemeris::SkyClockwork clockwork_;
     /// Of the frame at hand: east-north-up at the ownship from that at the eye, row by row as the library
     /// fills it.
     std::vector<double> ownship_from_eye_ = std::vector<double>(9);
     double eye_spread_m_ = 0.0;
-    bool date_clamped_ = false;
+    ephemeris::Instant instant_;
 };
 
 [[nodiscard]] SkyAngles sky_angles(const render::Scene& scene) noexcept;

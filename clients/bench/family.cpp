@@ -129,9 +129,3 @@ std::string make_counted_calls(const Family& family, std::uint64_t calls) {
 }
 
 }  // namespace skyig::clients::bench
-
-extern "C" __attribute__((noinline)) double skyig_bench_counted_calls(const skyig::clients::bench::Work* work,
-                                                                      std::uint64_t first,
-                                                                      std::uint64_t calls) {
-    return (*work)(first, calls);
-}

@@ -41,26 +41,41 @@ struct Point {
     double error = 0.0;
 };
 
-/// Powers of ten that hold all values.
+/// Holds all values with some room round them, and a factor of ten at least.
 class LogAxis {
   public:
     LogAxis(double least, double most, double from_px, double to_px)
-        : first_(static_cast<int>(std::floor(std::log10(least)))),
-          last_(static_cast<int>(std::ceil(std::log10(most)))),
+        : first_(std::log10(least) - kRoom),
+          last_(std::log10(most) + kRoom),
           from_px_(from_px),
           to_px_(to_px) {
-        if (last_ == first_) ++last_;
+        const double missing = std::max(1.0 - (last_ - first_), 0.0);
+        first_ -= 0.5 * missing;
+        last_ += 0.5 * missing;
     }
 
-    [[nodiscard]] int first() const { return first_; }
-    [[nodiscard]] int last() const { return last_; }
     [[nodiscard]] double at_px(double value) const {
         return std::lerp(from_px_, to_px_, (std::log10(value) - first_) / (last_ - first_));
     }
+    /// Powers of ten; with 2 and 5 times them where there would be few.
+    [[nodiscard]] std::vector<double> ticks() const {
+        const bool few = last_ - first_ < 2.0;
+        std::vector<double> values;
+        for (int power = static_cast<int>(std::floor(first_)); power <= last_; ++power) {
+            for (const double multiple : {1.0, 2.0, 5.0}) {
+                const double value = multiple * std::pow(10.0, power);
+                const double place = std::log10(value);
+                if ((few || multiple == 1.0) && place >= first_ && place <= last_) values.push_back(value);
+            }
+        }
+        return values;
+    }
 
   private:
-    int first_;
-    int last_;
+    static constexpr double kRoom = 0.2;
+
+    double first_;
+    double last_;
     double from_px_;
     double to_px_;
 };
@@ -70,9 +85,8 @@ struct Frame {
     LogAxis error;
 };
 
-std::string power_of_ten(int power) {
-    return power >= -4 && power <= 5 ? fmt::format("{:g}", std::pow(10.0, power))
-                                     : fmt::format("1e{}", power);
+std::string tick_label(double value) {
+    return value >= 0.9e-4 && value < 1.1e6 ? fmt::format("{:.7g}", value) : fmt::format("{:.0e}", value);
 }
 
 std::vector<Point> points_of(const Report& report, const Plot& plot) {
@@ -113,15 +127,15 @@ void put_line(std::string& svg, double x1_px, double y1_px, double x2_px, double
 }
 
 void put_grid(std::string& svg, const Frame& frame) {
-    for (int power = frame.cost.first(); power <= frame.cost.last(); ++power) {
-        const double x_px = frame.cost.at_px(std::pow(10.0, power));
+    for (const double value : frame.cost.ticks()) {
+        const double x_px = frame.cost.at_px(value);
         put_line(svg, x_px, kTop_px, x_px, kBottom_px);
-        put_text(svg, x_px, kBottom_px + 20.0, " text-anchor=\"middle\"", power_of_ten(power));
+        put_text(svg, x_px, kBottom_px + 20.0, " text-anchor=\"middle\"", tick_label(value));
     }
-    for (int power = frame.error.first(); power <= frame.error.last(); ++power) {
-        const double y_px = frame.error.at_px(std::pow(10.0, power));
+    for (const double value : frame.error.ticks()) {
+        const double y_px = frame.error.at_px(value);
         put_line(svg, kLeft_px, y_px, kRight_px, y_px);
-        put_text(svg, kLeft_px - 8.0, y_px + 4.5, " text-anchor=\"end\"", power_of_ten(power));
+        put_text(svg, kLeft_px - 8.0, y_px + 4.5, " text-anchor=\"end\"", tick_label(value));
     }
     fmt::format_to(std::back_inserter(svg),
                    "<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n", kLeft_px,

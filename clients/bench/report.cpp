@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace skyig::clients::bench {
@@ -22,7 +23,9 @@ const CostEntry* find_cost(const ModelEntry& model, std::string_view name) noexc
 }
 
 std::string short_number(double value) {
-    return fmt::format("{:.4g}", value);
+    const std::string shortest = fmt::format("{:.4g}", value);
+    if (std::abs(value) < 1e4 || std::abs(value) >= 1e9) return shortest;
+    return fmt::format("{:.0f}", std::stod(shortest));
 }
 
 std::string to_text(const Report& report) {

@@ -88,7 +88,7 @@ struct Report {
 /// Tables for people.
 [[nodiscard]] std::string to_text(const Report& report);
 
-/// Four significant digits, the shortest form: "0.03125", "1234", "1.2e+06".
+/// Four significant digits, the shortest form: "0.03125", "1234", "123500", "1.2e-06".
 [[nodiscard]] std::string short_number(double value);
 
 }  // namespace skyig::clients::bench

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
+#include <random>
 
 namespace skyig::clients::bench {
 
@@ -12,12 +14,9 @@ namespace {
 class Batch {
   public:
     Batch(const server::Clock& clock, const Work& work, double batch_ns) : clock_(clock), work_(work) {
-        // The first calls fill caches and say little, so what counts is the last, longest try.
-        double taken_ns = run_ns();
-        while (taken_ns < 0.5 * batch_ns && calls_ < kMostCalls) {
+        (void)run_ns();  // fills caches, those of the work too
+        while (quicker_of_two_ns() < 0.5 * batch_ns && calls_ < kMostCalls)
             calls_ *= 2;
-            taken_ns = run_ns();
-        }
     }
 
     /// Nanoseconds a call.
@@ -25,6 +24,12 @@ class Batch {
 
   private:
     static constexpr std::uint64_t kMostCalls = std::uint64_t{1} << 30U;
+
+    /// A work that was interrupted, or had something to prepare, looks longer than it is.
+    double quicker_of_two_ns() {
+        const double first_ns = run_ns();
+        return std::min(first_ns, run_ns());
+    }
 
     double run_ns() {
         const std::int64_t start_ns = clock_.monotonic_ns();
@@ -68,9 +73,12 @@ PairedTimings measure_paired(const server::Clock& clock, const Work& floor,
     std::vector<double> floor_ns;
     std::vector<std::vector<double>> ns(contenders.size());
     std::vector<std::vector<double>> floors(contenders.size());
+    std::vector<std::size_t> order(contenders.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::mt19937 random(1);
     for (int round = -1; round < options.rounds; ++round) {
-        for (std::size_t k = 0; k < batches.size(); ++k) {
-            const std::size_t i = (k + static_cast<std::size_t>(round + 1)) % batches.size();
+        std::shuffle(order.begin(), order.end(), random);
+        for (const std::size_t i : order) {
             const double floor_now_ns = floor_batches[i].time_ns();
             const double now_ns = batches[i].time_ns();
             if (round < 0) continue;

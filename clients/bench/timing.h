@@ -67,8 +67,9 @@ struct TimingOptions {
     double batch_ns = 100'000.0;
 };
 
-/// Every round times each contender once, each time next to a batch of the floor; the order is turned by one
-/// from round to round. One round before the first warms up and is not counted.
+/// Every round times each contender once, each time next to a batch of its floor; the order is shuffled from
+/// round to round (alike in every run), so that nobody always follows the same neighbour. One round before
+/// the first warms up and is not counted.
 [[nodiscard]] PairedTimings measure_paired(const server::Clock& clock, const Work& floor,
                                            std::span<const Contender> contenders,
                                            const TimingOptions& options);

@@ -42,7 +42,8 @@ class CaptureReader {
     [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
     [[nodiscard]] const CaptureCounters& counters() const noexcept { return counters_; }
 
-    /// Of the section that is being read. A pcap file is one section with one interface.
+    /// Those of the section that is being read, as far as it has described them; sections mostly describe all
+    /// of theirs before the first packet. A pcap file is one section with one interface.
     [[nodiscard]] std::span<const CaptureInterface> interfaces() const noexcept;
     /// The interface of the packet that next() has just given.
     [[nodiscard]] const CaptureInterface& interface_of_last() const noexcept;

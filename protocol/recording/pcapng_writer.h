@@ -24,13 +24,13 @@ using BlockSink = std::function<bool(std::span<const std::byte>)>;
 
 struct RecordingHead {
     /// Free UTF-8 text, any number of lines: what made the recording, with which settings.
-    std::string comment;
+    std::string comment{};
     /// The program that writes, with its version, as capinfos shows it.
     std::string program = "skyig";
     /// Of the UDP interface, which is always there and the first.
     std::string udp_name = "udp";
     /// One CAN interface each; a frame goes to the one that its `bus` numbers.
-    std::vector<std::string> can_names;
+    std::vector<std::string> can_names{};
 };
 
 class PcapngWriter {

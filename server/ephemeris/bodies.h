@@ -35,4 +35,8 @@ enum class Model : std::uint8_t { kAlmanac, kErfa, kSeries };
 
 inline constexpr std::array<std::string_view, 3> kModelNames{"almanac", "erfa", "series"};
 
+[[nodiscard]] constexpr std::string_view name_of(Model model) noexcept {
+    return kModelNames[static_cast<std::size_t>(model)];
+}
+
 }  // namespace skyig::server::ephemeris

@@ -88,6 +88,9 @@ sun = false
 moon = false
 stars = false
 star_intensity_pct = 40
+[ephemeris]
+model = "erfa"
+earth_orientation = "finals2000A.all"
 [display]
 max_luminance_cd_m2 = 200
 adaptation_cd_m2 = 50
@@ -132,6 +135,8 @@ group_id = 3
     EXPECT_EQ(c.air.temperature_c, -10.0);
     EXPECT_FALSE(c.sky.sun || c.sky.moon || c.sky.stars);
     EXPECT_EQ(c.sky.star_intensity_pct, 40.0);
+    EXPECT_EQ(c.ephemeris.model, EphemerisModel::kErfa);
+    EXPECT_EQ(c.ephemeris.earth_orientation, "finals2000A.all");
     EXPECT_EQ(c.display.adaptation_cd_m2, 50.0);
     EXPECT_EQ(c.display.gamma, 2.4);
     EXPECT_FALSE(c.display.dither);
@@ -142,6 +147,37 @@ group_id = 3
     EXPECT_EQ(c.channels[0].bottom_deg, 1.0);
     EXPECT_EQ(c.channels[0].view_id, 7);
     EXPECT_EQ(c.channels[0].group_id, 3);
+}
+
+TEST(Config, EphemerisIsNamedAndItsFileFoundBesideTheSettings) {
+    const LoadResult none = parse_config(with(""), "/etc/skyig/site.toml");
+    ASSERT_TRUE(none);
+    EXPECT_EQ(none.config->ephemeris.model, EphemerisModel::kSeries);
+    EXPECT_EQ(none.config->ephemeris.earth_orientation, "");
+    const auto file_of = [](std::string_view name, const std::string& settings) {
+        const LoadResult result =
+            parse_config(with(fmt::format("[ephemeris]\nearth_orientation = \"{}\"", name)), settings);
+        return result ? result.config->ephemeris.earth_orientation : to_text(result.errors.front());
+    };
+    EXPECT_EQ(file_of("eop.csv", "/etc/skyig/site.toml"), "/etc/skyig/eop.csv");
+    EXPECT_EQ(file_of("eop.csv", "site.toml"), "eop.csv");
+    EXPECT_EQ(file_of("../iers/finals.all", "sites/zrh.toml"), "sites/../iers/finals.all");
+    EXPECT_EQ(file_of("/var/lib/finals.all", "/etc/skyig/site.toml"), "/var/lib/finals.all");
+    EXPECT_EQ(file_of("", "site.toml"),
+              "site.toml:3:21: ephemeris.earth_orientation: is empty; it must name a file, or be left out");
+    const std::array<EphemerisModel, 3> models{EphemerisModel::kAlmanac, EphemerisModel::kErfa,
+                                               EphemerisModel::kSeries};
+    const std::array<std::string_view, 3> names{"almanac", "erfa", "series"};
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        const LoadResult result =
+            parse_config(with(fmt::format("[ephemeris]\nmodel = \"{}\"", names[i])), "site.toml");
+        ASSERT_TRUE(result);
+        EXPECT_EQ(result.config->ephemeris.model, models[i]);
+    }
+    EXPECT_THAT(error_of(with("[ephemeris]\nmodel = \"vsop\"")).message, HasSubstr("series"));
+    EXPECT_THAT(error_of(with("[ephemeris]\nearth_orientation = 5")).key, "ephemeris.earth_orientation");
+    EXPECT_THAT(error_of(with("[ephemeris]\nearth_orientatoin = \"a\"")).message,
+                HasSubstr("did you mean \"earth_orientation\""));
 }
 
 TEST(Config, AdaptationFollowsTheDisplayUnlessGiven) {

@@ -238,6 +238,41 @@ TEST(SceneBuilder, SunAndMoonAreThoseOfTheEphemeris) {
     EXPECT_LT(angles.sun_azimuth_deg, 200.0);
 }
 
+TEST(SceneBuilder, PlanetsAreThoseOfTheEphemerisInTheirColours) {
+    const ephemeris::Geodetic place{47.0, 8.0, 500.0};
+    const render::Scene scene = scene_of(site(place, {0.0, 0.0, 0.0}));
+    const ephemeris::SkyState sky =
+        ephemeris::compute_sky_state(ephemeris::make_instant(world::utc("2026-06-21T12:00:00Z")), place);
+    for (std::size_t i = 0; i < render::kPlanetCount; ++i) {
+        expect_close(scene.planets[i].direction_enu, sky.planets[i].direction_enu, 0.001 * kArcsec, "planet");
+        EXPECT_NEAR(scene.planets[i].magnitude, sky.planets[i].magnitude, 1e-4);
+    }
+    // Venus is the brightest and Mars the reddest.
+    for (const std::size_t other : {0U, 2U, 3U, 4U})
+        EXPECT_LT(scene.planets[1].magnitude, scene.planets[other].magnitude);
+    for (const std::size_t other : {0U, 1U, 3U, 4U})
+        EXPECT_GT(scene.planets[2].bv, scene.planets[other].bv);
+}
+
+TEST(SceneBuilder, MoonHasItsFaceAndTheEarthsShadow) {
+    // In the umbra of 2018-07-27 over Mauritius; the same month before it there is no shadow near.
+    config::Config config = site({-20.2, 57.5, 100.0}, {0.0, 0.0, 0.0});
+    HostBench eclipsed(config, world::utc("2018-07-27T20:21:44Z"));
+    SceneBuilder builder;
+    const render::Moon moon = builder.build(eclipsed.world, 1).moon;
+    std::printf("  axis %.3f, umbra %.3f, penumbra %.3f radii of the Moon\n",
+                glm::length(moon.shadow_axis_enu), moon.umbra_radius, moon.penumbra_radius);
+    EXPECT_LT(glm::length(moon.shadow_axis_enu) + 1.0, moon.umbra_radius);
+    EXPECT_GT(moon.penumbra_radius, moon.umbra_radius + 1.5);
+    EXPECT_EQ(moon.sunlit, 0.0);
+    // The near side looks at the eye.
+    EXPECT_GT(glm::dot(moon.enu_from_selenographic[0], -moon.direction_enu), std::cos(12.0 * kRad));
+    HostBench before(config, world::utc("2018-07-20T20:21:44Z"));
+    const render::Moon lit = builder.build(before.world, 2).moon;
+    EXPECT_EQ(lit.sunlit, 1.0);
+    EXPECT_GT(glm::length(lit.shadow_axis_enu), lit.penumbra_radius + 1.0);
+}
+
 TEST(SceneBuilder, EclipsedSunIsObscuredUnlessTheMoonIsSwitchedOff) {
     config::Config config = site({32.7767, -96.7970, 130.0}, {0.0, 0.0, 0.0});
     HostBench bench(config, world::utc("2024-04-08T18:42:30Z"));

@@ -53,7 +53,7 @@ TEST(Plot, HasTheStructureOfItsReport) {
     EXPECT_NE(svg.find("Hands &lt;of&gt; a dial, day"), std::string::npos);
     EXPECT_NE(svg.find("largest error, arcsec"), std::string::npos);
     EXPECT_NE(svg.find("prefers-color-scheme:dark"), std::string::npos);
-    for (const char* label : {">hour<", ">minute<", ">rough<", ">fine<", ">0.01<", ">100<", ">1000<"})
+    for (const char* label : {">hour<", ">minute<", ">rough<", ">fine<", ">0.1<", ">10<", ">1000<"})
         EXPECT_EQ(count_of(svg, label) > 0, true) << label;
 }
 
@@ -67,10 +67,13 @@ TEST(Plot, AxesAreLogarithmicAndErrorGrowsUpwards) {
     const double y0 = std::stod(points[2]);
     const double x1 = std::stod(points[3]);
     const double y1 = std::stod(points[4]);
-    // Costs 10 and 1000 lie on the ends of an axis of two decades; errors 40 and 0.04 are three decades
-    // apart on one from 0.01 to 100.
-    EXPECT_NEAR(x1 - x0, 648.0 - 76.0, 0.2);
-    EXPECT_NEAR(y1 - y0, 0.75 * (420.0 - 52.0), 0.2);
+    // Costs 10 and 1000 and errors 40 and 0.04, with a fifth of a decade of room at each end.
+    const double cost_decades = 2.0 + 0.4;
+    const double error_decades = 3.0 + 0.4;
+    EXPECT_NEAR(x1 - x0, 2.0 / cost_decades * (648.0 - 76.0), 0.2);
+    EXPECT_NEAR(y1 - y0, 3.0 / error_decades * (420.0 - 52.0), 0.2);
+    EXPECT_NEAR(x0, 76.0 + 0.2 / cost_decades * (648.0 - 76.0), 0.1);
+    EXPECT_NEAR(y1, 420.0 - 0.2 / error_decades * (420.0 - 52.0), 0.1);
 }
 
 TEST(Plot, NothingToDrawIsSaid) {
@@ -89,6 +92,8 @@ TEST(Plot, OnePointAloneHasAnAxis) {
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_EQ(svg.find("inf"), std::string::npos);
     EXPECT_EQ(count_of(svg, "<g><title>"), 1U);
+    // Less than two decades are divided more finely.
+    EXPECT_NE(svg.find(">20<"), std::string::npos);
 }
 
 TEST(Plot, EveryModelOfManyHasAShape) {

@@ -51,6 +51,15 @@ TEST(ReportJson, AnotherShapeIsRefusedByName) {
     EXPECT_NE(message_of(text).find("rms"), std::string::npos);
 }
 
+TEST(ReportText, NumbersAreShort) {
+    EXPECT_EQ(short_number(0.0), "0");
+    EXPECT_EQ(short_number(0.031254), "0.03125");
+    EXPECT_EQ(short_number(4.1684e-5), "4.168e-05");
+    EXPECT_EQ(short_number(9036.4), "9036");
+    EXPECT_EQ(short_number(134512.0), "134500");
+    EXPECT_EQ(short_number(3.1e12), "3.1e+12");
+}
+
 TEST(ReportText, TellsEveryFigureInATable) {
     const std::string text = to_text(tests::sample_report());
     for (const char* wanted : {"dials", "a better dial", "a glance: 2 ns", "rough", "0.039", "900", "31"})

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -76,6 +77,23 @@ TEST(Timing, NoCallIsMadeTwiceAndBatchesAreLongEnough) {
                          std::vector<Contender>{{"a", "x", work, {}}}, {3, 100'000.0});
     EXPECT_GE(*sizes.rbegin() * 100, 50'000U);
     EXPECT_LE(*sizes.rbegin() * 100, 100'000U);
+}
+
+TEST(Timing, AnExpensiveFirstCallDoesNotShortenTheBatches) {
+    server::ManualClock clock;
+    std::uint64_t most_calls = 0;
+    const Work work = [&](std::uint64_t first, std::uint64_t count) {
+        most_calls = std::max(most_calls, count);
+        if (first == 0) clock.advance_ns(1'000'000);
+        clock.advance_ns(static_cast<std::int64_t>(count) * 100);
+        return 0.0;
+    };
+    const double slowness = 1.0;
+    const PairedTimings timings =
+        measure_paired(clock, work_of_ns(clock, 10.0, slowness), std::vector<Contender>{{"a", "x", work, {}}},
+                       {3, 100'000.0});
+    EXPECT_GE(most_calls, 512U);
+    EXPECT_NEAR(timings.contenders[0].ns.median, 100.0, 1e-9);
 }
 
 TEST(Timing, AClockThatStandsStillLeavesNoRatioAndEnds) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <deque>
 #include <memory>
@@ -194,6 +195,63 @@ TEST_F(FrameLoopTest, WarmsUpUncountedAndUnheard) {
     EXPECT_EQ(loop_->report().frames, 3U);
     EXPECT_NEAR(loop_->report().times[0].median_ms, 1.0, 0.01);
     EXPECT_EQ(last_answer(cigi::Version::k33).ig_frame_number, 3U);
+}
+
+TEST_F(FrameLoopTest, TellsOnceThatLeapSecondsAreAssumed) {
+    config_.start.utc = config::UtcDateTime{2090, 6, 21, 12, 0, 0.0};
+    loop(3000).warm_up();
+    loop_->run([] { return false; });
+    ASSERT_EQ(lines_.size(), 1U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[0], HasSubstr("beyond the announced leap seconds"));
+    const RunReport report = loop_->report();
+    EXPECT_TRUE(report.leap_seconds_assumed);
+    EXPECT_FALSE(report.date_clamped);
+}
+
+TEST_F(FrameLoopTest, TellsOnceThatTheDateIsClamped) {
+    config_.start.utc = config::UtcDateTime{2100, 12, 31, 23, 59, 45.0};
+    loop(6000).warm_up();
+    loop_->run([] { return false; });
+    EXPECT_EQ(std::count_if(lines_.begin(), lines_.end(),
+                            [](const std::string& line) {
+                                return line.find("outside 1900..2100") != std::string::npos;
+                            }),
+              1)
+        << ::testing::PrintToString(lines_);
+    EXPECT_TRUE(loop_->report().date_clamped);
+}
+
+TEST_F(FrameLoopTest, DrawsAndReportsTheConfiguredEphemeris) {
+    loop(1).run([] { return false; });
+    const glm::dvec3 moon = painter_.last_scene.moon.direction_enu;
+    EXPECT_EQ(loop_->report().ephemeris_text(), "series, Earth orientation by the built-in tables");
+    config_.ephemeris.model = config::EphemerisModel::kAlmanac;
+    loop(1).run([] { return false; });
+    EXPECT_EQ(loop_->report().ephemeris, "almanac");
+    const double apart_deg = glm::degrees(glm::length(painter_.last_scene.moon.direction_enu - moon));
+    std::printf("the almanac's Moon is %.4f deg from that of the series\n", apart_deg);
+    EXPECT_GT(apart_deg, 1e-4);
+    EXPECT_LT(apart_deg, 0.5);
+}
+
+TEST_F(FrameLoopTest, TurnsTheSkyByTheMeasuredEarth) {
+    loop(1).run([] { return false; });
+    const glm::dmat3 by_tables = painter_.last_scene.stars.enu_from_gcrs;
+    // UT1 half a second off: 7.5 arcsec about the pole.
+    std::vector<ephemeris::EarthOrientationRow> rows;
+    for (const double mjd : {61210.0, 61220.0})
+        rows.push_back({mjd, 0.5, 0.0, 0.0});
+    world_ = std::make_unique<world::World>(config_, start_time(config_.start, clock_), log_);
+    FrameLoop measured(config_, FrameLoopParts{clock_, log_, pace_, link_, *world_, painter_, nullptr}, 1, 1,
+                       ephemeris::EarthOrientation(rows));
+    measured.run([] { return false; });
+    EXPECT_EQ(measured.report().earth_orientation, "2026-06-19..2026-06-29");
+    const glm::dmat3 turned = painter_.last_scene.stars.enu_from_gcrs * glm::transpose(by_tables);
+    const double trace = turned[0][0] + turned[1][1] + turned[2][2];
+    const double turned_arcsec = glm::degrees(std::sqrt(std::max(0.0, 3.0 - trace))) * 3600.0;
+    std::printf("half a second of UT1 turns the sky by %.2f arcsec\n", turned_arcsec);
+    EXPECT_NEAR(turned_arcsec, 0.5 * 15.04, 1.6);
+    EXPECT_GT(turned_arcsec, 4.0);
 }
 
 TEST_F(FrameLoopTest, StopsWhenAsked) {

@@ -76,6 +76,9 @@ RunReport example() {
     report.host_frames_behind_median = 1;
     report.host_frames_behind_largest = 4;
     report.images_written = 6;
+    report.ephemeris = "erfa";
+    report.earth_orientation = "1962-01-01..2026-08-21";
+    report.leap_seconds_assumed = true;
     return report;
 }
 
@@ -92,6 +95,9 @@ TEST(Report, TableShowsWhatHappenedAndNoZeros) {
     EXPECT_THAT(table, HasSubstr("rejected        truncated 2\n"));
     EXPECT_THAT(table, HasSubstr("150 sent, 0 failed"));
     EXPECT_THAT(table, Not(HasSubstr("GL errors")));
+    EXPECT_THAT(table,
+                HasSubstr("ephemeris       erfa, Earth orientation measured 1962-01-01..2026-08-21; leap "
+                          "seconds are held at the last announced\n"));
 }
 
 TEST(Report, TableWithoutAHostSaysSo) {
@@ -108,6 +114,10 @@ TEST(Report, JsonHoldsEveryCount) {
     EXPECT_EQ(json.at("rejects").at("truncated"), 2);
     EXPECT_EQ(json.at("host").at("protocol"), "4.0 big-endian");
     EXPECT_EQ(json.at("start_of_frame").at("sent"), 150);
+    EXPECT_EQ(json.at("ephemeris").at("model"), "erfa");
+    EXPECT_EQ(json.at("ephemeris").at("earth_orientation"), "1962-01-01..2026-08-21");
+    EXPECT_EQ(json.at("ephemeris").at("date_clamped"), false);
+    EXPECT_EQ(json.at("ephemeris").at("leap_seconds_assumed"), true);
     EXPECT_EQ(json.at("images").at("written"), 6);
 }
 
