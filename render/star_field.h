@@ -28,7 +28,7 @@ class StarField {
 
     /// \param limit_mag  V magnitude outside the air; fainter ones are left out, brighter ones fade in over
     /// 0.8 mag. Annual aberration of stars: direction + velocity / c, normalised (second order neglected:
-    /// 0.001 arcsec). Refraction is interpolated: within 3 arcsec of the frame's row.
+    /// 0.001 arcsec). Refraction is interpolated: within 3 arcsec of the frame's row up to FL600.
     void update(const Scene& scene, const sky::AirTables& air, const SkyLight& light,
                 const shaders64::ToneParameters& tone, double limit_mag);
 

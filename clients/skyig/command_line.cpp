@@ -17,7 +17,7 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kVerbs{"host", "shot", "bench", "ephem"};
+constexpr std::array<std::string_view, 5> kVerbs{"host", "shot", "bench", "ephem", "decode"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -248,6 +248,16 @@ void add_ephem(CLI::App& app, EphemOptions& options, std::string& horizon) {
     app.footer(kEphemFooter);
 }
 
+void add_decode(CLI::App& app, DecodeOptions& options) {
+    app.add_option("--can", options.can_path,
+                   "a log of candump -L, read as CANaerospace; - is standard input")
+        ->required()
+        ->type_name("FILE");
+    app.add_flag("--json", options.json, "tell each frame as a JSON object, one a line");
+    app.footer(
+        "A line that is no frame is told on stderr; the others are decoded, and the exit status is 1.");
+}
+
 /// The first word that is no option, when it is no verb either.
 const char* unknown_verb(int argc, const char* const* argv) {
     if (argc < 2 || argv[1][0] == '-') return nullptr;
@@ -275,6 +285,7 @@ Invocation read_command_line(int argc, const char* const* argv) {
     ShotOptions shot;
     BenchOptions bench;
     EphemOptions ephem;
+    DecodeOptions decode;
     std::string order = "little";
     std::string horizon = "almanac";
     CLI::App* host_verb =
@@ -283,10 +294,13 @@ Invocation read_command_line(int argc, const char* const* argv) {
     CLI::App* bench_verb = app.add_subcommand("bench", "measure error and cost of every model of a family");
     CLI::App* ephem_verb =
         app.add_subcommand("ephem", "where Sun, Moon, planets and stars stand, and when things happen");
+    CLI::App* decode_verb =
+        app.add_subcommand("decode", "what recorded frames say, and what is wrong with them");
     add_host(*host_verb, host, order);
     add_shot(*shot_verb, shot);
     add_bench(*bench_verb, bench);
     add_ephem(*ephem_verb, ephem, horizon);
+    add_decode(*decode_verb, decode);
     try {
         app.parse(argc, argv);
         host.big_endian = order == "big";
@@ -295,6 +309,7 @@ Invocation read_command_line(int argc, const char* const* argv) {
         if (bench_verb->parsed()) invocation.options = bench;
         ephem.eye_horizon = horizon == "eye";
         if (ephem_verb->parsed()) invocation.options = ephem;
+        if (decode_verb->parsed()) invocation.options = decode;
     } catch (const CLI::CallForHelp&) {
         const std::vector<CLI::App*> asked = app.get_subcommands();
         invocation.output = (asked.empty() ? &app : asked.front())->help();

@@ -98,9 +98,16 @@ struct EphemOptions {
     bool json = false;
 };
 
+/// skyig decode: recorded frames as text or JSON.
+struct DecodeOptions {
+    /// A candump log; "-" = standard input.
+    std::string can_path;
+    bool json = false;
+};
+
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
-    std::variant<std::monostate, HostOptions, ShotOptions, BenchOptions, EphemOptions> options;
+    std::variant<std::monostate, HostOptions, ShotOptions, BenchOptions, EphemOptions, DecodeOptions> options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)
     std::string error;   ///< for stderr, one line

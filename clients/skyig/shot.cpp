@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/config.h"
@@ -40,6 +41,8 @@ struct Picture {
 struct Shot {
     std::vector<Picture> pictures;
     std::string utc;
+    std::string ephemeris;
+    bool leap_seconds_assumed = false;
     double tables_ms = 0.0;
     double draw_ms = 0.0;
     server::SkyAngles sky;
@@ -111,19 +114,29 @@ Picture write_picture(server::GlPainter& painter, const ShotOptions& options, co
     return picture;
 }
 
+server::SceneBuilder scene_builder(const ShotOptions& options, const config::Config& config) {
+    ephemeris::EarthOrientationResult orientation =
+        server::load_earth_orientation(config, options.config_path);
+    if (!orientation) {
+        fmt::print(stderr, "{}\n", orientation.error);
+        throw ConfigErrors{};
+    }
+    return server::SceneBuilder(server::ephemeris_model(config), std::move(*orientation.orientation));
+}
+
 Shot take_shot(const ShotOptions& options) {
     const server::SystemClock clock;
     server::Log log(clock, server::Severity::kWarning);
     const config::Config config = shot_config(options);
     const ephemeris::UtcClockTime utc = shot_time(options, config, clock);
+    server::SceneBuilder scenes = scene_builder(options, config);
     const server::world::World world(config, utc, log);
     server::GlPainter painter(server::render_channels(config), server::display_settings(config));
-    server::SceneBuilder scenes;
 
     const std::int64_t begin_ns = clock.monotonic_ns();
     const render::Scene scene = scenes.build(world, 1);
     if (scenes.date_clamped())
-        log.warning("{} is beyond the ephemeris: the nearest year it knows is drawn", options.utc);
+        log.warning("{} is beyond the ephemeris: the nearest year it knows is drawn", ephemeris::to_iso(utc));
     painter.prepare(scene);
     const std::int64_t tables_ns = clock.monotonic_ns();
     Shot shot;
@@ -134,6 +147,8 @@ Shot take_shot(const ShotOptions& options) {
     for (std::size_t channel = 0; channel < config.channels.size(); ++channel)
         shot.pictures.push_back(write_picture(painter, options, config, channel));
     shot.utc = ephemeris::to_iso(utc);
+    shot.ephemeris = ephemeris::name_of(server::ephemeris_model(config));
+    shot.leap_seconds_assumed = scenes.leap_seconds_assumed();
     shot.sky = server::sky_angles(scene);
     shot.adaptation_cd_m2 = painter.adaptation_cd_m2();
     shot.renderer = painter.description();
@@ -146,7 +161,9 @@ void print_text(const Shot& shot) {
     fmt::print("took        {:.1f} ms for the tables of this air, {:.1f} ms to draw\n", shot.tables_ms,
                shot.draw_ms);
     fmt::print("OpenGL      {}\n", shot.renderer);
-    fmt::print("UTC         {}\n", shot.utc);
+    fmt::print("UTC         {}{}\n", shot.utc,
+               shot.leap_seconds_assumed ? ", beyond the announced leap seconds" : "");
+    fmt::print("ephemeris   {}\n", shot.ephemeris);
     fmt::print("Sun         elevation {:.2f} deg, azimuth {:.2f} deg\n", shot.sky.sun_elevation_deg,
                shot.sky.sun_azimuth_deg);
     fmt::print("Moon        elevation {:.2f} deg, azimuth {:.2f} deg, {:.0f} % lit\n",
@@ -167,6 +184,7 @@ void print_json(const Shot& shot) {
     json["draw_ms"] = shot.draw_ms;
     json["renderer"] = shot.renderer;
     json["utc"] = shot.utc;
+    json["ephemeris"] = {{"model", shot.ephemeris}, {"leap_seconds_assumed", shot.leap_seconds_assumed}};
     json["sun"] = {{"elevation_deg", shot.sky.sun_elevation_deg}, {"azimuth_deg", shot.sky.sun_azimuth_deg}};
     json["moon"] = {{"elevation_deg", shot.sky.moon_elevation_deg},
                     {"azimuth_deg", shot.sky.moon_azimuth_deg},

@@ -97,6 +97,42 @@ TEST(Skyigd, CheckSaysOkOrAllThatIsWrong) {
     EXPECT_THAT(bad.err, HasSubstr("listen"));
 }
 
+TEST(Programs, FileOfEarthOrientationIsReadAtStartUp) {
+    const Site site;
+    const auto settings = [&site](const std::string& name, const std::string& orientation) {
+        return site.scratch.write(name,
+                                  "version = 1\n[host]\nlisten = \"127.0.0.1:0\"\n[start]\nutc = "
+                                  "2016-12-31T12:00:00Z\n[ephemeris]\n"
+                                  "model = \"erfa\"\nearth_orientation = \"" +
+                                      orientation + "\"\n" + channel_toml("a", 8, 8, 0));
+    };
+    const std::string days = "mjd,ut1_minus_utc_s,x_arcsec,y_arcsec\n57753,-0.407,0.08,0.27\n57754,";
+    // Beside the settings, so that its name alone will do.
+    const std::filesystem::path whole(site.scratch.write("eop.csv", days + "0.592,0.08,0.27\n"));
+    const std::string good = settings("good.toml", whole.filename().string());
+    const Finished checked = skyigd({"--config", good, "--check"});
+    EXPECT_EQ(checked.status, 0) << checked.err;
+    const Finished ran = skyigd({"--config", good, "--frames", "2", "--report", site.report_path});
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr("ephemeris erfa, Earth orientation measured 2016-12-31..2017-01-01"));
+    const Json report = Json::parse(read_text(site.report_path));
+    EXPECT_EQ(report.at("ephemeris").at("earth_orientation"), "2016-12-31..2017-01-01");
+    const Finished shot = skyig({"shot", "--config", good, "--json", "--out", site.scratch.file("a.png")});
+    ASSERT_EQ(shot.status, 0) << shot.err;
+    EXPECT_EQ(Json::parse(shot.out).at("ephemeris").at("model"), "erfa");
+
+    const std::string torn = settings("torn.toml", site.scratch.write("torn.csv", days + "0.59,\n"));
+    const std::string said = "torn.toml: ephemeris.earth_orientation: ";
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"--config", torn, "--check"}, {"--config", torn, "--frames", "1"}}) {
+        expect_usage_error(skyigd(arguments), said);
+        expect_usage_error(skyigd(arguments), "torn.csv:3: pole x in arcsec is \"\"");
+    }
+    expect_usage_error(skyig({"shot", "--config", torn, "--out", site.scratch.file("b.png")}), said);
+    expect_usage_error(skyigd({"--config", settings("none.toml", "no.csv"), "--check"}),
+                       "no.csv: cannot be opened: No such file");
+}
+
 TEST(Skyigd, ExampleSettingsAreGood) {
     for (const char* name : {"one-channel.toml", "three-channels.toml"}) {
         const Finished check =

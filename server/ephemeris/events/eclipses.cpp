@@ -216,7 +216,7 @@ std::vector<Eclipse> find_at_phases(const TimeSpan& span, const Geodetic& site, 
     std::vector<Eclipse> found;
     for (const Event& phase : find_moon_phases(wider, model)) {
         if (phase.kind != kind) continue;
-        EventSky sky(phase.time, site, model);
+        EventSky sky(phase.time, site, model, Knots::kTenMinutes);
         const std::optional<Eclipse> eclipse = eclipse_at(sky);
         if (eclipse && seconds_between(span.from, eclipse->maximum.time) >= 0.0 &&
             seconds_between(eclipse->maximum.time, span.to) > 0.0)

@@ -1,5 +1,5 @@
 // The sky of one site as a function of seconds, cheap enough to be searched: what the series give is kept at
-// whole hours.
+// knots of time.
 #pragma once
 
 #include <array>
@@ -13,12 +13,16 @@
 
 namespace skyig::server::ephemeris::events {
 
-/// Like SkyClockwork with knots an hour apart, of which the last ones are kept: the Moon is 0.02 arcsec off
-/// for it, which is 0.05 s of an eclipse. One object a thread.
+/// How far the knots are apart, and how far off the Moon is for it: 0.07 and 0.002 arcsec, which is 0.2 and
+/// 0.005 s of an eclipse.
+enum class Knots : std::uint8_t { kHour, kTenMinutes };
+
+/// Like SkyClockwork with knots further apart, of which the last ones are kept. One object a thread.
 class EventSky {
   public:
     /// Seconds are counted from `origin` (SI seconds of UTC, leap seconds included).
-    EventSky(const UtcClockTime& origin, const Geodetic& site, Model model) noexcept;
+    EventSky(const UtcClockTime& origin, const Geodetic& site, Model model,
+             Knots knots = Knots::kHour) noexcept;
 
     [[nodiscard]] UtcClockTime time_at(double seconds) const noexcept;
     [[nodiscard]] Instant instant_at(double seconds) const noexcept { return make_instant(time_at(seconds)); }
@@ -32,17 +36,18 @@ class EventSky {
   private:
     struct Knot {
         bool filled = false;
-        std::int64_t hour = 0;
+        std::int64_t index = 0;
         SlowSky sky;
     };
     static constexpr std::size_t kKnotCount = 64;
 
-    [[nodiscard]] const SlowSky& knot(std::int64_t hour) noexcept;
+    [[nodiscard]] const SlowSky& knot(std::int64_t index) noexcept;
 
     UtcClockTime origin_;
     Geodetic site_;
     Model model_;
-    std::array<Knot, kKnotCount> knots_;
+    double knots_per_day_;
+    std::array<Knot, kKnotCount> kept_;
 };
 
 }  // namespace skyig::server::ephemeris::events

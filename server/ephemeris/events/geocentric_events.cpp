@@ -7,6 +7,7 @@
 #include "server/ephemeris/events/event_sky.h"
 #include "server/ephemeris/events/events.h"
 #include "server/ephemeris/events/roots.h"
+#include "server/ephemeris/places.h"
 
 namespace skyig::server::ephemeris::events {
 namespace {
@@ -22,14 +23,14 @@ struct EclipticLongitudes {
 };
 
 EclipticLongitudes ecliptic_longitudes(const JulianDate& tt, Model model) noexcept {
-    const SkyState state = geocentric_state_from(evaluate_slow_sky(tt, model), tt);
+    const GeocentricPlaces places = compute_geocentric(tt, model);
     const double obliquity_rad = earth_frame(tt, model).true_obliquity_rad;
     const double sine = std::sin(obliquity_rad);
     const double cosine = std::cos(obliquity_rad);
     const auto longitude_rad = [sine, cosine](const glm::dvec3& equatorial) {
         return std::atan2(equatorial.y * cosine + equatorial.z * sine, equatorial.x);
     };
-    return {longitude_rad(state.sun.direction_enu), longitude_rad(state.moon.direction_enu)};
+    return {longitude_rad(places.of(Body::kSun).direction), longitude_rad(places.of(Body::kMoon).direction)};
 }
 
 /// Steps through the span and one step beyond either end; `visit(from_s, to_s)`.

@@ -8,6 +8,7 @@
 #include "server/ephemeris/events/event_sky.h"
 #include "server/ephemeris/events/events.h"
 #include "server/ephemeris/events/roots.h"
+#include "server/ephemeris/places.h"
 
 namespace skyig::server::ephemeris::events {
 namespace {
@@ -18,18 +19,6 @@ constexpr double kTimeTolerance_s = 0.01;
 /// Nearer to its zero than this an extreme is looked at closely: within a step an elevation bends by 0.06
 /// degrees at most.
 constexpr double kGrazing_rad = 0.2 * kRadPerDeg;
-
-struct BodyInSky {
-    glm::dvec3 direction_enu;
-    double angular_radius_rad;
-};
-
-BodyInSky body_in(const SkyState& state, Body body) noexcept {
-    if (body == Body::kSun) return {state.sun.direction_enu, state.sun.angular_radius_rad};
-    if (body == Body::kMoon) return {state.moon.direction_enu, state.moon.angular_radius_rad};
-    const PlanetState& planet = state.planets[index_of(body) - index_of(Body::kMercury)];
-    return {planet.direction_enu, planet.angular_radius_rad};
-}
 
 /// A function of the sky that is searched for zeros, and what its rising and falling zeros are called.
 struct Track {
@@ -43,8 +32,8 @@ struct Track {
 
 Track limb_track(Body body, double horizon_rad) {
     const auto above = [body, horizon_rad](const SkyState& state) {
-        const BodyInSky seen = body_in(state, body);
-        return horizontal_of(seen.direction_enu).elevation_rad + seen.angular_radius_rad - horizon_rad;
+        const ApparentPlace seen = apparent_place(state, body);
+        return horizontal_of(seen.direction).elevation_rad + seen.angular_radius_rad - horizon_rad;
     };
     return {above, body, EventKind::kRise, EventKind::kSet};
 }
@@ -54,7 +43,7 @@ Track transit_track(Body body, const Geodetic& site) {
     const double latitude_rad = site.latitude_deg * kRadPerDeg;
     const glm::dvec3 meridian_enu(0.0, -std::sin(latitude_rad), std::cos(latitude_rad));
     const auto hour_angle = [body, meridian_enu](const SkyState& state) {
-        const glm::dvec3 direction = body_in(state, body).direction_enu;
+        const glm::dvec3 direction = apparent_place(state, body).direction;
         return std::atan2(-direction.x, glm::dot(direction, meridian_enu));
     };
     return {hour_angle, body, EventKind::kTransit, std::nullopt, true};
@@ -130,7 +119,7 @@ class TrackSearch {
     }
 
     void record(EventKind kind, double seconds) {
-        const Horizontal place = horizontal_of(body_in(sky_.state_at(seconds), track_.body).direction_enu);
+        const Horizontal place = horizontal_of(apparent_place(sky_.state_at(seconds), track_.body).direction);
         found_.push_back({.time = sky_.time_at(seconds),
                           .kind = kind,
                           .body = track_.body,

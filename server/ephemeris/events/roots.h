@@ -11,7 +11,7 @@ namespace skyig::server::ephemeris::events {
 template <typename Function>
 [[nodiscard]] double zero_between(const Function& f, double a, double fa, double b, double fb,
                                   double tolerance) {
-    constexpr int kMostSteps = 80;
+    constexpr int kMostSteps = 160;
     int kept_end = 0;
     for (int step = 0; step < kMostSteps && std::abs(b - a) > tolerance; ++step) {
         if (fa == 0.0) return a;
