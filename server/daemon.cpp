@@ -21,6 +21,9 @@
 #include "server/gl_painter.h"
 #include "server/live_wire.h"
 #include "server/log.h"
+#include "server/pace.h"
+#include "server/recorder.h"
+#include "server/replay.h"
 #include "server/stop_signal.h"
 
 namespace skyig::server {
@@ -66,14 +69,98 @@ std::string heard_text(const config::Config& config, const LiveWire& wire) {
     return text;
 }
 
-void say_banner(Log& log, const config::Config& config, const GlPainter& painter, const LiveWire& wire) {
+void say_banner(Log& log, const config::Config& config, const GlPainter& painter, const std::string& heard) {
     std::string channels;
     for (const config::Channel& channel : config.channels) {
         fmt::format_to(std::back_inserter(channels), "{}{} {}x{}", channels.empty() ? "" : ", ", channel.name,
                        channel.width_px, channel.height_px);
     }
     log.info("skyigd {}: OpenGL {}; channels {}; {:g} Hz; {}", SKYIG_VERSION, painter.description(), channels,
-             config.daemon.rate_hz, heard_text(config, wire));
+             config.daemon.rate_hz, heard);
+}
+
+/// What the frame loop hears and goes by: sockets and the system's clock, or a recording and its own.
+class Outside {
+  public:
+    Outside(const DaemonOptions& options, const config::Config& config, Clock& wall) {
+        if (options.replay_path.empty()) {
+            live_.emplace(config);
+            clock_pace_.emplace(wall, config.daemon.rate_hz);
+        } else {
+            replay_.emplace(options.replay_path, config);
+            replay_wire_.emplace(*replay_);
+            replay_pace_.emplace(*replay_, replay_clock_, wall, config.daemon.rate_hz, options.replay_speed);
+        }
+    }
+
+    void record(const std::string& path, const config::Config& config, const RecordingFacts& facts) {
+        recorder_ = std::make_unique<Recorder>(path, config, facts);
+        recording_wire_.emplace(plain_wire(), *recorder_);
+    }
+
+    [[nodiscard]] Wire& wire() { return recording_wire_ ? *recording_wire_ : plain_wire(); }
+    [[nodiscard]] Pace& pace() {
+        if (replay_pace_) return *replay_pace_;
+        return *clock_pace_;
+    }
+    [[nodiscard]] const ManualClock& replay_clock() const noexcept { return replay_clock_; }
+    [[nodiscard]] const Replay* replay() const noexcept { return replay_ ? &*replay_ : nullptr; }
+    [[nodiscard]] const Recorder* recorder() const noexcept { return recorder_.get(); }
+
+    [[nodiscard]] std::string heard(const DaemonOptions& options, const config::Config& config) const {
+        if (live_) return heard_text(config, *live_);
+        return fmt::format("replays {}", options.replay_path);
+    }
+
+  private:
+    [[nodiscard]] Wire& plain_wire() {
+        if (replay_wire_) return *replay_wire_;
+        return *live_;
+    }
+
+    std::optional<LiveWire> live_;
+    std::optional<ClockPace> clock_pace_;
+    ManualClock replay_clock_;
+    std::optional<Replay> replay_;
+    std::optional<ReplayWire> replay_wire_;
+    std::optional<ReplayPace> replay_pace_;
+    std::unique_ptr<Recorder> recorder_;
+    std::optional<RecordingWire> recording_wire_;
+};
+
+/// A recording starts from the instant that it was started from, unless the settings say another.
+ephemeris::UtcClockTime start_of(const config::Config& config, const Outside& outside, const Clock& wall) {
+    if (!config.start.utc && outside.replay() != nullptr) {
+        if (const auto recorded = ephemeris::parse_utc(outside.replay()->start_utc())) return *recorded;
+    }
+    return start_time(config.start, wall);
+}
+
+std::ofstream open_events(const std::string& path) {
+    std::ofstream file;
+    if (path.empty()) return file;
+    file.open(path);
+    if (!file) throw std::runtime_error(fmt::format("{}: cannot be made for events", path));
+    return file;
+}
+
+/// What went wrong at the edges of a run that is over.
+void tell_ends(Log& log, const Outside& outside, const std::string& renderer) {
+    if (const Replay* replay = outside.replay()) {
+        if (!replay->trouble().empty()) log.warning("{}", replay->trouble());
+        if (replay->strangers() > 0)
+            log.notice("{} packets of the recording are of no source in the settings", replay->strangers());
+        if (!replay->renderer().empty() && replay->renderer() != renderer) {
+            log.notice("recorded with {}: pictures may differ in the last bit from those of {}",
+                       replay->renderer(), renderer);
+        }
+    }
+    if (const Recorder* recorder = outside.recorder()) {
+        const Recorder::Counts counts = recorder->counts();
+        if (counts.file_failed) log.error("{}: writing failed; the recording ends there", recorder->path());
+        if (counts.lost > 0)
+            log.error("{}: {} packets are missing: the disk was too slow", recorder->path(), counts.lost);
+    }
 }
 
 void write_report(const std::string& path, const RunReport& report) {
@@ -87,20 +174,36 @@ void run(const DaemonOptions& options, const config::Config& config,
          ephemeris::EarthOrientation orientation) {
     StopSignal stop;
     SystemClock clock;
-    Log log(clock);
-    world::World world(config, start_time(config.start, clock), log);
-    LiveWire wire(config);
-    ClockPace pace(clock, config.daemon.rate_hz);
+    Outside outside(options, config, clock);
+    std::ofstream events = open_events(options.events_path);
+    const FrameLoop* running = nullptr;
+    Log log(outside.replay() != nullptr ? static_cast<const Clock&>(outside.replay_clock()) : clock);
+    log.also_to([&events, &running](Severity, std::string_view line) {
+        if (events.is_open())
+            events << (running == nullptr ? 0 : running->frame_number()) << ' ' << line << '\n';
+    });
+    const ephemeris::UtcClockTime start_utc = start_of(config, outside, clock);
+    world::World world(config, start_utc, log);
     const std::unique_ptr<ImageWriter> images = open_images(options, config);
+    const std::unique_ptr<FrameHashes> hashes =
+        options.hashes_path.empty() ? nullptr : std::make_unique<FrameHashes>(options.hashes_path);
     GlPainter painter(render_channels(config), display_settings(config));
-    say_banner(log, config, painter, wire);
+    say_banner(log, config, painter, outside.heard(options, config));
+    if (!options.record_path.empty()) {
+        outside.record(options.record_path, config,
+                       {ephemeris::to_iso(start_utc, 9), config.daemon.rate_hz, "skyigd " SKYIG_VERSION,
+                        painter.description()});
+    }
 
-    FrameLoop loop(config, {clock, log, pace, wire, world, painter, images.get()}, options.frames,
-                   options.out_every, std::move(orientation));
+    FrameLoop loop(config,
+                   {clock, log, outside.pace(), outside.wire(), world, painter, images.get(), hashes.get()},
+                   options.frames, options.out_every, std::move(orientation));
     log.info("ephemeris {}", loop.report().ephemeris_text());
     loop.warm_up();
+    running = &loop;
     loop.run([&stop] { return stop.requested(); });
     if (images) images->finish();
+    tell_ends(log, outside, painter.description());
 
     const RunReport report = loop.report();
     if (!options.report_path.empty()) write_report(options.report_path, report);

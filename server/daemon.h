@@ -21,6 +21,16 @@ struct DaemonOptions {
     std::uint64_t out_every = 1;
     /// File for the report as JSON; empty = none.
     std::string report_path;
+    /// Recording to run instead of listening; empty = none.
+    std::string replay_path;
+    /// Of the recorded pace; 0 = as fast as it goes.
+    double replay_speed = 0.0;
+    /// File that all input is recorded in; empty = none.
+    std::string record_path;
+    /// File for one line a frame and channel with the picture's hash; empty = none.
+    std::string hashes_path;
+    /// File for the log's lines with the frames that they came in; empty = none.
+    std::string events_path;
 };
 
 /// Runs until the frames asked for are done or SIGINT or SIGTERM comes; then tells the report on stdout.

@@ -73,6 +73,7 @@ bool FrameLoop::run_frame() {
     parts_.world.advance(static_cast<double>(slot.slots) * parts_.pace.period_s());
     draw(scenes_.build(parts_.world, frame_number_));
     if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images();
+    if (parts_.hashes != nullptr) hash_images();
 
     last_end_ns_ = parts_.clock.monotonic_ns();
     times_.frame().add(last_end_ns_ - start_ns);
@@ -107,6 +108,16 @@ void FrameLoop::draw(const render::Scene& scene) {
     for (std::size_t channel = 0; channel < config_.channels.size(); ++channel) {
         parts_.painter.draw(channel);
         lap(times_.channel(channel));
+    }
+}
+
+void FrameLoop::hash_images() {
+    for (std::size_t i = 0; i < config_.channels.size(); ++i) {
+        const config::Channel& channel = config_.channels[i];
+        read_back_.resize(static_cast<std::size_t>(channel.width_px) *
+                          static_cast<std::size_t>(channel.height_px) * 4U);
+        parts_.painter.read_back(i, read_back_);
+        parts_.hashes->add(frame_number_, channel.name, read_back_);
     }
 }
 

@@ -1,12 +1,15 @@
 // One frame after the other: answer the host, take what it has sent, move the world, draw, write pictures.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "config/config.h"
 #include "server/answers.h"
 #include "server/clock.h"
+#include "server/frame_hashes.h"
 #include "server/image_writer.h"
 #include "server/inbox.h"
 #include "server/log.h"
@@ -29,6 +32,8 @@ struct FrameLoopParts {
     Painter& painter;
     /// Null: no pictures are written.
     ImageWriter* images = nullptr;
+    /// Null: pictures are not hashed.
+    FrameHashes* hashes = nullptr;
 };
 
 /// Neither a host nor a disk can hold it up. A frame allocates nothing in steady state.
@@ -50,6 +55,9 @@ class FrameLoop {
     /// Waits for the next frame's start and runs it. \return false when there is none any more
     bool run_frame();
 
+    /// Of the frame at hand or the last.
+    [[nodiscard]] std::uint64_t frame_number() const noexcept { return frame_number_; }
+
     /// Everything counted so far; the images' counts are final once the writer has finished.
     [[nodiscard]] RunReport report() const;
 
@@ -57,6 +65,7 @@ class FrameLoop {
     void answer_host(const FramePacer::Slot& slot);
     void draw(const render::Scene& scene);
     void hand_out_images();
+    void hash_images();
     void watch(const FramePacer::Slot& slot);
     void tell_late_frames();
     void tell_dropped_datagrams();
@@ -89,6 +98,7 @@ class FrameLoop {
         std::uint64_t late = 0;
     };
     Watched watched_;
+    std::vector<std::byte> read_back_;
     /// What has been said of the date, until it is said anew.
     bool told_clamped_ = false;
     bool told_leap_seconds_ = false;

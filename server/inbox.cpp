@@ -55,16 +55,26 @@ class Inbox::Handler {
 };
 
 Inbox::Inbox(const config::Config& config, world::World& world, Log& log)
-    : world_(world), log_(log), buses_(config.sources.size() + 1) {
+    : world_(world), log_(log), buses_(config.sources.size() + 1), flight_models_(config.sources.size() + 1) {
     for (std::size_t i = 0; i < config.sources.size(); ++i) {
         const config::Source& source = config.sources[i];
         if (source.kind == config::SourceKind::kCanAerospace)
             buses_[i + 1] = std::make_unique<BusInput>(i + 1, identifier_map(source), world);
+        if (source.kind == config::SourceKind::kFgNetFdm)
+            flight_models_[i + 1] = std::make_unique<FlightGearInput>(i + 1, world, log);
     }
 }
 
 void Inbox::take(std::size_t source, const transport::Datagram& datagram) {
     ++datagrams_;
+    if (flight_models_[source]) {
+        flight_models_[source]->take(datagram);
+    } else {
+        take_message(source, datagram);
+    }
+}
+
+void Inbox::take_message(std::size_t source, const transport::Datagram& datagram) {
     const cigi::MessageSummary summary =
         cigi::decode_host_message(datagram.bytes, Handler(*this, source, datagram.from), counters_);
     if (!summary.fault) return;

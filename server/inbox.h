@@ -9,6 +9,7 @@
 #include "config/config.h"
 #include "protocol/cigi/counters.h"
 #include "server/bus_input.h"
+#include "server/flightgear_input.h"
 #include "server/log.h"
 #include "server/report.h"
 #include "server/wire.h"
@@ -33,13 +34,16 @@ class Inbox final : public ArrivalTaker {
   private:
     class Handler;
 
+    void take_message(std::size_t source, const protocol::transport::Datagram& datagram);
+
     world::World& world_;
     Log& log_;
     protocol::cigi::Counters counters_;
     FramesBehind frames_behind_;
     std::uint64_t datagrams_ = 0;
-    /// By source; null where it is no bus.
+    /// By source; null where it speaks something else.
     std::vector<std::unique_ptr<BusInput>> buses_;
+    std::vector<std::unique_ptr<FlightGearInput>> flight_models_;
 };
 
 }  // namespace skyig::server

@@ -72,6 +72,7 @@ Log::Limit& Log::find_limit(std::string_view key, std::int64_t now_ns, bool& fir
 }
 
 void Log::emit(Severity severity, std::string_view line) {
+    if (also_) also_(severity, line);
     if (sink_) {
         sink_(severity, line);
         return;

@@ -11,6 +11,7 @@
 #include <functional>
 #include <mutex>
 #include <string_view>
+#include <utility>
 
 #include "server/clock.h"
 
@@ -28,6 +29,9 @@ class Log {
     explicit Log(const Clock& clock, Severity threshold = Severity::kInfo);
     /// Writes to `sink` (tests).
     Log(const Clock& clock, Sink sink, Severity threshold = Severity::kDebug);
+
+    /// A second reader of every line; to be set before other threads write.
+    void also_to(Sink sink) { also_ = std::move(sink); }
 
     template <typename... Args>
     void error(fmt::format_string<Args...> format, Args&&... args) {
@@ -72,6 +76,7 @@ class Log {
     const Clock& clock_;
     Severity threshold_;
     Sink sink_;
+    Sink also_;
     bool prefix_ = false;
     std::mutex mutex_;
     std::array<Limit, kMaxKeys> limits_{};

@@ -39,6 +39,19 @@ void declare(CLI::App& app, DaemonOptions& options) {
         ->type_name("N");
     app.add_option("--report", options.report_path, "write the report of the run here as JSON")
         ->type_name("FILE");
+    CLI::Option* replay =
+        app.add_option("--replay", options.replay_path, "run a recording (pcapng, pcap) instead of listening")
+            ->type_name("FILE");
+    app.add_option("--speed", options.replay_speed,
+                   "replay at so many times the recorded pace (0: as fast as it goes)")
+        ->check(CLI::Range(0.0, 1000.0))
+        ->needs(replay)
+        ->type_name("X");
+    app.add_option("--record", options.record_path, "record all input here as pcapng")->type_name("FILE");
+    app.add_option("--hashes", options.hashes_path, "write a hash of each picture here, a line each")
+        ->type_name("FILE");
+    app.add_option("--events", options.events_path, "write the log here too, each line with its frame")
+        ->type_name("FILE");
     app.set_version_flag("--version", std::string("skyigd " SKYIG_VERSION));
     app.footer("Exit status: 0 done, 1 the work failed, 2 wrong usage or settings.");
 }
