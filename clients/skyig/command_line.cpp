@@ -178,7 +178,7 @@ CLI::Validator known_span() {
 }
 
 constexpr const char* kEphemFooter =
-    R"(Tables (--batch) need a column of time: utc or date_ut (UTC, before 1972 UT1), jd_tt (Julian date in TT;
+    R"(Tables (--batch) need a column of time: utc or date_ut (UTC, before 1971 UT1), jd_tt (Julian date in TT;
 seen from the Earth's centre) or td_iso (TT). Columns body, lat_deg, lon_deg and h_m (0 if missing) say
 what is seen from where: without body it is --body or the Moon, without a place --lat --lon --alt or the
 Earth's centre. tt_minus_utc_s (tt_minus_ut_s), ut1_minus_utc_s (ut1_minus_ut_s) and, with td_iso,

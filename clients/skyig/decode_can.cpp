@@ -190,7 +190,7 @@ std::string CanLogDecoder::summary() const {
               can::Outcome::kStale, can::Outcome::kBusError})
             outcomes[outcome] += counters[outcome];
     }
-    std::string text = fmt::format("{} frames", frames);
+    std::string text = fmt::format("{} frame{}", frames, frames == 1 ? "" : "s");
     const char* separator = ": ";
     for (const auto& [outcome, count] : outcomes) {
         if (count == 0) continue;
@@ -205,11 +205,13 @@ int run_decode_can(const DecodeOptions& options) {
     std::ifstream file;
     if (!from_stdin) {
         file.open(options.can_path, std::ios::binary);
-        if (!file || file.peek() == std::ifstream::traits_type::eof()) {
-            fmt::print(stderr, "skyig: {}: cannot be read, or is empty; give a log of candump -L\n",
-                       options.can_path);
+        // A folder can be opened and shows only when it is read; an empty log is no fault.
+        file.peek();
+        if (file.bad() || !file.is_open()) {
+            fmt::print(stderr, "skyig: {}: cannot be read; give a log of candump -L\n", options.can_path);
             return 1;
         }
+        file.clear();
     }
     std::istream& in = from_stdin ? std::cin : file;
     CanLogDecoder decoder(from_stdin ? "standard input" : options.can_path, options.json);

@@ -43,6 +43,7 @@ class CanLogDecoder {
     Receivers receivers_;
 };
 
+/// An empty log has no frames and no fault.
 /// \return the exit status; a line that is none has then been told on stderr, and the others decoded
 [[nodiscard]] int run_decode_can(const DecodeOptions& options);
 

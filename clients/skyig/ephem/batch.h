@@ -44,7 +44,7 @@ struct BatchSettings {
     /// For tables without columns `lat_deg`, `lon_deg`; the Earth's centre if not given.
     std::optional<server::ephemeris::Geodetic> site;
     server::ephemeris::Model model = server::ephemeris::Model::kSeries;
-    AirSettings air;
+    AirSettings air{};
 };
 
 struct BatchCount {

@@ -20,7 +20,7 @@ struct ReportRequest {
     std::vector<server::ephemeris::Body> bodies;
     std::vector<NamedStar> stars;
     server::ephemeris::Model model = server::ephemeris::Model::kSeries;
-    AirSettings air;
+    AirSettings air{};
 };
 
 struct StarPlace {

@@ -11,7 +11,7 @@ namespace skyig::clients::ephem {
 
 /// How a time column is written.
 enum class TimeForm : std::uint8_t {
-    kUtc,           ///< 2026-06-21T19:30:00Z, seconds up to 60.999 at a leap second; before 1972 UT1
+    kUtc,           ///< 2026-06-21T19:30:00Z, seconds up to 60.999 at a leap second; before 1971 UT1
     kTtJulianDate,  ///< decimal Julian date in TT
     kTtCivil        ///< written as UTC is, but in TT (eclipse catalogues: TD)
 };

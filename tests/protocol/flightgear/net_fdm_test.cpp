@@ -173,7 +173,7 @@ TEST(NetFdm, SinglePrecisionAnglesBeyondTheirEndAreBroughtBack) {
 }
 
 TEST(NetFdm, RandomBytesBreakNoPromise) {
-    constexpr int kRounds = 500'000;
+    constexpr int kRounds = 150'000;
     const std::uint64_t seed = std::random_device{}();
     std::mt19937_64 random(seed);
     std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
@@ -219,7 +219,7 @@ TEST(NetFdm, RandomBytesBreakNoPromise) {
 }
 
 TEST(NetFdm, DecodingAllocatesNothing) {
-    constexpr int kRounds = 200'000;
+    constexpr int kRounds = 100'000;
     const std::vector<Sample> all = samples();
     double sum = 0.0;
     const std::uint64_t before = skyig::tests::allocation_count();

@@ -169,7 +169,7 @@ TEST(CaptureDamage, SoundCapturesAreReadToTheirEnd) {
 }
 
 TEST(CaptureDamage, RandomChangesBreakNoPromise) {
-    constexpr int kRounds = 200'000;
+    constexpr int kRounds = 100'000;
     const std::uint64_t seed = std::random_device{}();
     std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
     RecordProperty("seed", std::to_string(seed));

@@ -403,6 +403,27 @@ TEST(CaptureReader, FilesLongerThanTheWindowAreReadThroughIt) {
         ASSERT_EQ(all.packets[i].payload, payloads[i]);
 }
 
+TEST(CaptureReader, APipeIsReadAsItFills) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe(ends.data()), 0);
+    const transport::FileDescriptor out(ends[0]);
+    const auto send = [&ends](const ByteVector& bytes) {
+        EXPECT_EQ(::write(ends[1], bytes.data(), bytes.size()), static_cast<::ssize_t>(bytes.size()));
+    };
+    send(Builder(ByteOrder::kLittle).section().interface(link_type::kRaw).bytes);
+    auto reader = CaptureReader::open("/proc/self/fd/" + std::to_string(ends[0]));
+    ASSERT_TRUE(reader.has_value()) << reader.error();
+    for (const std::string_view payload : {"first", "second"}) {
+        send(Builder(ByteOrder::kLittle).packet(0, 1, ipv4_udp(payload)).bytes);
+        const CapturedPacket* packet = reader->next();  // does not wait for more than this packet
+        ASSERT_NE(packet, nullptr);
+        EXPECT_EQ(text_of(packet->payload), payload);
+    }
+    ::close(ends[1]);
+    EXPECT_EQ(reader->next(), nullptr);
+    EXPECT_EQ(reader->end(), CaptureReader::End::kComplete) << reader->trouble();
+}
+
 TEST(CaptureReader, WhatCannotBeOpenedIsNamed) {
     EXPECT_EQ(CaptureReader::open("no/such/file.pcapng").error(),
               "no/such/file.pcapng: No such file or directory");

@@ -1,0 +1,138 @@
+// One moment, told to people and to programs.
+#include "clients/skyig/ephem/report.h"
+
+#include <erfa.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "render/night/star_catalogue.h"
+#include "server/ephemeris/angles.h"
+
+namespace skyig::clients::ephem {
+namespace {
+
+using namespace server::ephemeris;
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+
+ReportRequest eclipse_request() {
+    return {.utc = parse_utc("2024-04-08T19:12:34Z").value(),
+            .site = Geodetic{41.0341, -83.6523, 0.0},
+            .bodies = {kBodies.begin(), kBodies.end()},
+            .stars = {parse_star("sirius").value(), parse_star("HR 424").value()}};
+}
+
+TEST(EphemReport, JsonHasEveryBodyWithStableKeys) {
+    const Json json = Json::parse(to_json(make_report(eclipse_request())));
+    EXPECT_EQ(json["utc"], "2024-04-08T19:12:34.000Z");
+    EXPECT_EQ(json["model"], "series");
+    EXPECT_EQ(json["site"]["latitude_deg"], 41.0341);
+    ASSERT_EQ(json["bodies"].size(), 7U);
+    for (const Json& body : json["bodies"]) {
+        for (const char* key : {"right_ascension_deg", "declination_deg", "azimuth_deg", "elevation_deg",
+                                "elevation_refracted_deg", "range_km", "semidiameter_arcsec",
+                                "phase_angle_deg", "illuminated_fraction", "magnitude"})
+            EXPECT_TRUE(body.at(key).is_number()) << body["body"] << key;
+        EXPECT_EQ(body.contains("axis_position_angle_deg"), body["body"] == "moon");
+        EXPECT_EQ(body.contains("bright_limb_deg"), body["body"] != "sun");
+    }
+    EXPECT_EQ(json["sun_obscured"], 1.0);
+    EXPECT_EQ(json["moon_sunlit"], 1.0);
+    ASSERT_EQ(json["stars"].size(), 2U);
+    EXPECT_EQ(json["stars"][0]["name"], "Sirius");
+    EXPECT_EQ(json["stars"][1]["name"], "Polaris");
+    EXPECT_EQ(json["next"].size(), 12U);
+}
+
+TEST(EphemReport, StarsStandWhereErfaHasThem) {
+    const Report report = make_report(eclipse_request());
+    for (const StarPlace& place : report.stars) {
+        const glm::dvec3 catalogue = render::night::direction_at(*render::night::find_star(place.star.hr),
+                                                                 (2460409.3 - 2451545.0) / 365.25);
+        const Equatorial icrs = equatorial_of(catalogue);
+        double cirs_rad = 0.0;
+        double declination_rad = 0.0;
+        double origins_rad = 0.0;
+        eraAtci13(icrs.right_ascension_rad, icrs.declination_rad, 0.0, 0.0, 0.0, 0.0, report.instant.tt.day,
+                  report.instant.tt.fraction, &cirs_rad, &declination_rad, &origins_rad);
+        const auto direction = [](double longitude_rad, double latitude_rad) {
+            return glm::dvec3(std::cos(latitude_rad) * std::cos(longitude_rad),
+                              std::cos(latitude_rad) * std::sin(longitude_rad), std::sin(latitude_rad));
+        };
+        const double off_arcsec = angle_between_rad(direction(cirs_rad - origins_rad, declination_rad),
+                                                    direction(glm::radians(place.right_ascension_deg),
+                                                              glm::radians(place.declination_deg))) *
+                                  206264.806;
+        std::printf("%s: %.4f arcsec\n", place.star.name.c_str(), off_arcsec);
+        // The Sun's deflection is left out, as in the picture.
+        EXPECT_LE(off_arcsec, 0.05);
+    }
+}
+
+TEST(EphemReport, WithoutASiteItIsTheEarthsCentre) {
+    ReportRequest request = eclipse_request();
+    request.site.reset();
+    const Report report = make_report(request);
+    const Json json = Json::parse(to_json(report));
+    EXPECT_TRUE(json["site"].is_null());
+    EXPECT_FALSE(json["bodies"][0].contains("elevation_deg"));
+    EXPECT_TRUE(json["next"].empty());
+    EXPECT_THAT(to_text(report), HasSubstr("from the Earth's centre"));
+}
+
+TEST(EphemReport, TextTellsPeopleWhatMatters) {
+    const std::string text = to_text(make_report(eclipse_request()));
+    for (const char* part :
+         {"2024-04-08T19:12:34.000Z", "41.034100° N 83.652300° W", "sun ", "saturn", "Sirius",
+          "The Moon covers 100.00 % of the Sun.", "nautical dusk", "moon     rise"})
+        EXPECT_THAT(text, HasSubstr(part));
+    ReportRequest pole = eclipse_request();
+    pole.site = Geodetic{90.0, 0.0, 0.0};
+    pole.utc = parse_utc("2024-06-21T00:00:00Z").value();
+    EXPECT_THAT(to_text(make_report(pole)), HasSubstr("within 36 hours"));
+}
+
+TEST(EphemReport, BodiesAreThoseAskedFor) {
+    ReportRequest request = eclipse_request();
+    request.bodies = {Body::kVenus};
+    request.stars.clear();
+    const Json json = Json::parse(to_json(make_report(request)));
+    ASSERT_EQ(json["bodies"].size(), 1U);
+    EXPECT_EQ(json["bodies"][0]["body"], "venus");
+}
+
+float magnitude_of(std::string_view name) {
+    return render::night::find_star(parse_star(name).value().hr)->vmag;
+}
+
+TEST(EphemReport, StarNamesAreThoseOfBrightStars) {
+    // A wrong number in the list of names would point at a faint star.
+    constexpr double kFirstMagnitude = 1.4;
+    constexpr double kThirdMagnitude = 3.3;
+    for (const char* name :
+         {"Sirius",  "Canopus",  "Rigil Kentaurus", "Arcturus",  "Vega",   "Capella", "Rigel",
+          "Procyon", "Achernar", "Betelgeuse",      "Hadar",     "Altair", "Acrux",   "Aldebaran",
+          "Antares", "Spica",    "Pollux",          "Fomalhaut", "Deneb",  "Regulus"})
+        EXPECT_LT(magnitude_of(name), kFirstMagnitude) << name;
+    for (const char* name :
+         {"Acamar",      "Adhara",    "Alioth",         "Alkaid",  "Alnair",  "Alnilam",    "Alphard",
+          "Alphecca",    "Alpheratz", "Ankaa",          "Atria",   "Avior",   "Bellatrix",  "Castor",
+          "Denebola",    "Diphda",    "Dubhe",          "Elnath",  "Eltanin", "Enif",       "Gacrux",
+          "Gienah",      "Hamal",     "Kaus Australis", "Kochab",  "Markab",  "Menkar",     "Menkent",
+          "Miaplacidus", "Mirfak",    "Nunki",          "Peacock", "Polaris", "Rasalhague", "Sabik",
+          "Schedar",     "Shaula",    "Suhail"})
+        EXPECT_LT(magnitude_of(name), kThirdMagnitude) << name;
+    EXPECT_EQ(parse_star("7001").value().name, "Vega");
+    EXPECT_EQ(parse_star("hr2490").value().name, "HR 2490");
+    for (const char* text : {"", "HR", "HR x", "0", "9111", "92", "-1", "Siriusb"})
+        EXPECT_FALSE(parse_star(text).has_value()) << text;
+}
+
+}  // namespace
+}  // namespace skyig::clients::ephem
