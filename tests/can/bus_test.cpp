@@ -67,6 +67,15 @@ std::string read_file(const std::string& path) {
     return text.str();
 }
 
+/// Sockets that hear error frames; the kernel enters that last of what a socket listens to.
+std::size_t listeners() {
+    const std::string list = read_file("/proc/net/can/rcvlist_err");
+    std::size_t count = 0;
+    for (std::size_t at = list.find(" raw"); at != std::string::npos; at = list.find(" raw", at + 1))
+        ++count;
+    return count;
+}
+
 /// Of every kind: the golden frames, remote, CAN FD, errors, empty.
 std::string every_kind_of_frame() {
     return read_file(SKYIG_TEST_DATA "/canaerospace/canaerospace_golden.log") +
@@ -96,7 +105,7 @@ TEST(Bus, APlayedLogArrivesFrameByFrameWithTheStampsThatCandumpSees) {
         shell("exec candump -L vcan0,0:0,#FFFFFFFF -n " + std::to_string(sent.size()) + " -T 8000 >" +
               dumped);
     });
-    std::this_thread::sleep_for(milliseconds(500));
+    EXPECT_TRUE(eventually([] { return listeners() == 2; }));
     shell("canplayer -I " + played + " vcan0=can0");
     witness.join();
     ASSERT_TRUE(eventually([&] { return receiver.counters().received >= sent.size(); }));
