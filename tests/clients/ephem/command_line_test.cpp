@@ -60,7 +60,7 @@ TEST(EphemCommandLine, WrongUsageIsOneLineAndStatusTwo) {
     expect_wrong_usage({"--out", "x.csv"}, "--batch");
     expect_wrong_usage({"--batch", "x.csv", "--utc", "2024-04-08T19:12:34Z"}, "--utc");
     expect_wrong_usage({"--json", "--text"}, "--text");
-    expect_wrong_usage({"--horizon", "eye"}, "--events");
+    expect_wrong_usage({"--horizon", "eye"}, "--horizon requires");
 }
 
 class EphemFiles : public ::testing::Test {
