@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clients/body_name.h"
+#include "clients/skyig/decode_command.h"
 #include "clients/skyig/ephem/almanac.h"
 #include "clients/skyig/ephem/star_name.h"
 #include "clients/skyig/options.h"
@@ -270,16 +271,6 @@ void add_ephem(CLI::App& app, EphemOptions& options, std::string& horizon) {
     app.footer(kEphemFooter);
 }
 
-void add_decode(CLI::App& app, DecodeOptions& options) {
-    app.add_option("--can", options.can_path,
-                   "a log of candump -L, read as CANaerospace; - is standard input")
-        ->required()
-        ->type_name("FILE");
-    app.add_flag("--json", options.json, "tell each frame as a JSON object, one a line");
-    app.footer(
-        "A line that is no frame is told on stderr; the others are decoded, and the exit status is 1.");
-}
-
 /// The first word that is no option, when it is no verb either.
 const char* unknown_verb(int argc, const char* const* argv) {
     if (argc < 2 || argv[1][0] == '-') return nullptr;
@@ -328,13 +319,11 @@ Invocation read_command_line(int argc, const char* const* argv) {
     CLI::App* bench_verb = app.add_subcommand("bench", "measure error and cost of every model of a family");
     CLI::App* ephem_verb =
         app.add_subcommand("ephem", "where Sun, Moon, planets and stars stand, and when things happen");
-    CLI::App* decode_verb =
-        app.add_subcommand("decode", "what recorded frames say, and what is wrong with them");
+    const CLI::App* decode_verb = add_decode(app, decode);
     add_host(*host_verb, host, order);
     add_shot(*shot_verb, shot);
     add_bench(*bench_verb, bench);
     add_ephem(*ephem_verb, ephem, horizon);
-    add_decode(*decode_verb, decode);
     try {
         app.parse(argc, argv);
         host.big_endian = order == "big";
