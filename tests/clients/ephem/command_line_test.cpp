@@ -65,7 +65,7 @@ TEST(EphemCommandLine, WrongUsageIsOneLineAndStatusTwo) {
     expect_wrong_usage({"--out", "x.csv"}, "--batch");
     expect_wrong_usage({"--batch", "x.csv", "--utc", "2024-04-08T19:12:34Z"}, "--utc");
     expect_wrong_usage({"--json", "--text"}, "--text");
-    expect_wrong_usage({"--horizon", "eye"}, "--events");
+    expect_wrong_usage({"--horizon", "eye"}, "--horizon requires");
     expect_wrong_usage({"--utc", "1850-01-01T00:00:00Z"}, "1900..2100");
     expect_wrong_usage({"--batch", ""}, "--batch");
     expect_wrong_usage({"--batch", "x.csv", "--out", ""}, "--out");
