@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <glm/glm.hpp>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -18,6 +18,8 @@
 #include <vector>
 
 #include "clients/bench/truth_table.h"
+#include "clients/body_name.h"
+#include "clients/row_time.h"
 #include "server/ephemeris/earth_orientation.h"
 #include "server/ephemeris/places.h"
 #include "server/ephemeris/sky_clockwork.h"
@@ -63,35 +65,25 @@ glm::dvec3 unit_vector(double longitude_deg, double latitude_deg) {
             std::cos(latitude_rad) * std::sin(longitude_rad), std::sin(latitude_rad)};
 }
 
-Body body_of(std::string_view name) {
-    for (const Body body : kBodies) {
-        if (name_of(body) == name) return body;
-    }
-    throw std::runtime_error(fmt::format("ephemeris truth: there is no body '{}'", name));
+/// Throws std::runtime_error when the field is none.
+Body body_in(const TruthTable& table, std::size_t row) {
+    const std::string& text = table.text(row, "body");
+    if (const std::optional<Body> body = parse_body(text)) return *body;
+    throw std::runtime_error(fmt::format("ephemeris truth: there is no body '{}'", text));
 }
 
-/// The tables give TT and UT1 as 0h of the UTC day plus the time of day plus an offset.
-Instant instant_of(const std::string& utc, double tt_minus_utc_s, double ut1_minus_utc_s) {
-    constexpr std::size_t kDateLength = 10;
-    const auto day = parse_utc(utc.substr(0, kDateLength) + "T00:00:00Z");
-    int hour = 0;
-    int minute = 0;
-    double second = 0.0;
-    if (!day || utc.size() < kDateLength + 1 ||
-        std::sscanf(utc.c_str() + kDateLength + 1, "%d:%d:%lf", &hour, &minute, &second) != 3)
-        throw std::runtime_error(fmt::format("ephemeris truth: '{}' is no UTC", utc));
-    const double of_day_s = 3600.0 * hour + 60.0 * minute + second;
-    Instant instant;
-    instant.tt = {kMjdOrigin_jd + day->mjd(), (of_day_s + tt_minus_utc_s) / kSecondsPerDay};
-    instant.ut1 = {kMjdOrigin_jd + day->mjd(), (of_day_s + ut1_minus_utc_s) / kSecondsPerDay};
-    return instant;
+Instant instant_in(const TruthTable& table, std::size_t row, const char* column, TimeForm form,
+                   const RowOffsets& offsets = {}) {
+    const std::string& text = table.text(row, column);
+    if (const std::optional<Instant> instant = parse_row_time(text, form, offsets)) return *instant;
+    throw std::runtime_error(fmt::format("ephemeris truth: {} '{}' is no time", column, text));
 }
 
 void add_geocentric(std::vector<Case>& cases, const TruthTable& table) {
     for (std::size_t row = 0; row < table.rows(); ++row) {
         Case asked;
-        asked.body = body_of(table.text(row, "body"));
-        asked.instant.tt = {table.number(row, "jd_tt"), 0.0};
+        asked.body = body_in(table, row);
+        asked.instant = instant_in(table, row, "jd_tt", TimeForm::kTtJulianDate);
         asked.truth = unit_vector(table.number(row, "ra_app_deg"), table.number(row, "dec_app_deg"));
         cases.push_back(asked);
     }
@@ -101,9 +93,10 @@ void add_topocentric(std::vector<Case>& cases, const TruthTable& table) {
     for (std::size_t row = 0; row < table.rows(); ++row) {
         Case asked;
         asked.topocentric = true;
-        asked.body = body_of(table.text(row, "body"));
-        asked.instant = instant_of(table.text(row, "utc"), table.number(row, "tt_minus_utc_s"),
-                                   table.number(row, "ut1_minus_utc_s"));
+        asked.body = body_in(table, row);
+        asked.instant = instant_in(table, row, "utc", TimeForm::kUtc,
+                                   {.tt_minus_utc_s = table.number(row, "tt_minus_utc_s"),
+                                    .ut1_minus_utc_s = table.number(row, "ut1_minus_utc_s")});
         asked.eye = {table.number(row, "lat_deg"), table.number(row, "lon_deg"), table.number(row, "h_m")};
         // Azimuth runs from north through east.
         asked.truth = unit_vector(90.0 - table.number(row, "az_deg"), table.number(row, "el_deg"));
@@ -314,7 +307,7 @@ Report measure_ephemeris_errors(const std::filesystem::path& truth) {
         "a sky that only turns: three angles from memory, the matrix of their rotations, seven vectors "
         "turned "
         "by it";
-    report.headline = {"all bodies", kWhole, "jump"};
+    report.headline = {"all bodies", kWhole, "frame", "jump"};
     Plot theories{"theories", "Theories", kWhole, {}};
     for (const std::string_view body : kBodyNames)
         theories.series.push_back({std::string(body), std::string(body), std::string(body)});

@@ -32,7 +32,8 @@ std::vector<CsvRow> filled_in(const std::string& path, const BatchSettings& sett
     std::ostringstream errors;
     {
         std::ofstream output(filled);
-        const BatchCount count = run_batch(input, output, errors, settings);
+        const BatchCount count = run_batch(
+            input, [&]() -> std::ostream& { return output; }, errors, settings);
         EXPECT_EQ(count.bad_rows, 0U) << errors.str();
     }
     std::vector<CsvRow> rows = tests::read_csv(filled.string());
