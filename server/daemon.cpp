@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -49,6 +50,18 @@ std::unique_ptr<ImageWriter> open_images(const DaemonOptions& options, const con
         });
 }
 
+std::string_view bus_text(protocol::transport::CanState state) {
+    switch (state) {
+        case protocol::transport::CanState::kMissing:
+            return " (waiting: there is no CAN interface of this name)";
+        case protocol::transport::CanState::kDown:
+            return " (waiting: it is down)";
+        case protocol::transport::CanState::kUp:
+            break;
+    }
+    return "";
+}
+
 /// Who is heard where: "CIGI on udp 127.0.0.1:8004, answers to 127.0.0.1:8005; instructor on udp ...".
 std::string heard_text(const config::Config& config, const LiveWire& wire) {
     std::string text = "no host";
@@ -62,8 +75,9 @@ std::string heard_text(const config::Config& config, const LiveWire& wire) {
         const config::Source& source = config.sources[i];
         if (const auto local = wire.local(i + 1)) {
             fmt::format_to(std::back_inserter(text), "; {} on udp {}", source.name, *local);
-        } else {
-            fmt::format_to(std::back_inserter(text), "; {} on {}", source.name, source.interface);
+        } else if (const protocol::transport::CanReceiver* bus = wire.bus(i + 1)) {
+            fmt::format_to(std::back_inserter(text), "; {} on {}{}", source.name, bus->interface(),
+                           bus_text(bus->state()));
         }
     }
     return text;
@@ -82,14 +96,15 @@ void say_banner(Log& log, const config::Config& config, const GlPainter& painter
 /// What the frame loop hears and goes by: sockets and the system's clock, or a recording and its own.
 class Outside {
   public:
-    Outside(const DaemonOptions& options, const config::Config& config, Clock& wall) {
+    Outside(const DaemonOptions& options, const config::Config& config, Clock& wall,
+            ManualClock& replay_clock, Log& log) {
         if (options.replay_path.empty()) {
-            live_.emplace(config);
+            live_.emplace(config, log);
             clock_pace_.emplace(wall, config.daemon.rate_hz);
         } else {
             replay_.emplace(options.replay_path, config);
             replay_wire_.emplace(*replay_);
-            replay_pace_.emplace(*replay_, replay_clock_, wall, config.daemon.rate_hz, options.replay_speed);
+            replay_pace_.emplace(*replay_, replay_clock, wall, config.daemon.rate_hz, options.replay_speed);
         }
     }
 
@@ -108,8 +123,8 @@ class Outside {
         if (replay_pace_) return *replay_pace_;
         return *clock_pace_;
     }
-    [[nodiscard]] const ManualClock& replay_clock() const noexcept { return replay_clock_; }
     [[nodiscard]] const Replay* replay() const noexcept { return replay_ ? &*replay_ : nullptr; }
+    [[nodiscard]] const LiveWire* live() const noexcept { return live_ ? &*live_ : nullptr; }
     [[nodiscard]] const Recorder* recorder() const noexcept { return recorder_.get(); }
 
     [[nodiscard]] std::string heard(const DaemonOptions& options, const config::Config& config) const {
@@ -125,7 +140,6 @@ class Outside {
 
     std::optional<LiveWire> live_;
     std::optional<ClockPace> clock_pace_;
-    ManualClock replay_clock_;
     std::optional<Replay> replay_;
     std::optional<ReplayWire> replay_wire_;
     std::optional<ReplayPace> replay_pace_;
@@ -198,14 +212,15 @@ void run(const DaemonOptions& options, const config::Config& config,
          ephemeris::EarthOrientation orientation) {
     StopSignal stop;
     SystemClock clock;
-    Outside outside(options, config, clock);
+    ManualClock replay_clock;
     std::ofstream events = open_events(options.events_path);
     const FrameLoop* running = nullptr;
-    Log log(outside.replay() != nullptr ? static_cast<const Clock&>(outside.replay_clock()) : clock);
+    Log log(options.replay_path.empty() ? static_cast<const Clock&>(clock) : replay_clock);
     log.also_to([&events, &running](Severity, std::string_view line) {
         if (events.is_open())
             events << (running == nullptr ? 0 : running->frame_number()) << ' ' << line << '\n';
     });
+    Outside outside(options, config, clock, replay_clock, log);
     const ephemeris::UtcClockTime start_utc = start_of(config, outside, clock);
     world::World world(config, start_utc, log);
     const std::unique_ptr<ImageWriter> images = open_images(options, config);
@@ -231,7 +246,8 @@ void run(const DaemonOptions& options, const config::Config& config,
     outside.finish();
     tell_ends(log, outside, painter.description());
 
-    const RunReport report = loop.report();
+    RunReport report = loop.report();
+    if (const LiveWire* live = outside.live()) report.buses = live->bus_rows();
     if (!options.report_path.empty()) write_report(options.report_path, report);
     fmt::print("{}", to_table(report));
     if (images && report.images_failed > 0) throw std::runtime_error(images->first_error());

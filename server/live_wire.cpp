@@ -1,5 +1,7 @@
 #include "server/live_wire.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -13,6 +15,9 @@ namespace {
 
 /// A flood may fill the ring; it may not hold a frame up. A host sends a few kilobytes a frame.
 constexpr std::size_t kMostBytesAFrame = std::size_t{512} << 10U;
+/// Half a second of a full bus.
+constexpr std::size_t kMostBusFramesAFrame = 4096;
+constexpr double kRepeatAfter_s = 10.0;
 
 template <class T>
 T value_or_throw(protocol::Result<T, std::string> result) {
@@ -26,14 +31,29 @@ transport::Endpoint endpoint(const config::UdpAddress& address) {
 
 }  // namespace
 
-LiveWire::LiveWire(const config::Config& config) {
+LiveWire::LiveWire(const config::Config& config, Log& log) : log_(log) {
     if (config.host.enabled) add(0, config.host.listen, config.host.allow);
     for (std::size_t i = 0; i < config.sources.size(); ++i) {
         const config::Source& source = config.sources[i];
-        if (source.kind != config::SourceKind::kCanAerospace) add(i + 1, source.listen, source.allow);
+        if (source.kind == config::SourceKind::kCanAerospace) {
+            add_bus(i + 1, source);
+        } else {
+            add(i + 1, source.listen, source.allow);
+        }
     }
     for (Socket& socket : sockets_)
         open(socket);
+}
+
+void LiveWire::add_bus(std::size_t source, const config::Source& settings) {
+    transport::CanOptions options;
+    options.interface = settings.interface;
+    options.bus = static_cast<std::uint8_t>(source);
+    auto receiver = transport::CanReceiver::open(options);
+    if (!receiver) throw std::runtime_error(fmt::format("source {}: {}", settings.name, receiver.error()));
+    // The start line tells how it stands; from here on changes are told.
+    const transport::CanState state = receiver->state();
+    buses_.push_back({source, settings.name, std::move(*receiver), state, {}});
 }
 
 void LiveWire::add(std::size_t source, const config::UdpAddress& listen,
@@ -84,6 +104,79 @@ void LiveWire::drain(ArrivalTaker& taker) {
             },
             kMostBytesAFrame);
     }
+    for (Bus& bus : buses_) {
+        bus.receiver.drain([&bus, &taker](const protocol::CanFrame& frame) { taker.take(bus.source, frame); },
+                           kMostBusFramesAFrame);
+        tell(bus);
+    }
+}
+
+/// Down and up again, or gone and back, between two looks is told too: the bus was silent meanwhile.
+void LiveWire::tell(Bus& bus) {
+    // In this order: what is counted is then not of a state still to come.
+    const transport::CanCounters now = bus.receiver.counters();
+    const transport::CanState state = bus.receiver.state();
+    const bool interrupted =
+        now.went_down != bus.counters.went_down || now.went_away != bus.counters.went_away;
+    const std::string& interface = bus.receiver.interface();
+    if (state != bus.state || (interrupted && state == transport::CanState::kUp)) {
+        switch (state) {
+            case transport::CanState::kUp:
+                log_.notice("source {}: listening on {}{}", bus.name, interface,
+                            state == bus.state ? ", which was away for a moment" : "");
+                break;
+            case transport::CanState::kDown:
+                log_.warning("source {}: {} is down; waiting until it is up (ip link set {} up)", bus.name,
+                             interface, interface);
+                break;
+            case transport::CanState::kMissing:
+                log_.warning("source {}: {} is gone; looking for it once a second", bus.name, interface);
+                break;
+        }
+    }
+    tell_losses(bus, now);
+    bus.state = state;
+    bus.counters = now;
+}
+
+void LiveWire::tell_losses(const Bus& bus, const transport::CanCounters& now) {
+    if (now.dropped != bus.counters.dropped) {
+        log_.limited("bus dropped", kRepeatAfter_s, Severity::kWarning,
+                     "source {}: the system dropped {} frames of {} so far: they came faster than they were "
+                     "read (net.core.rmem_max sets how many may wait)",
+                     bus.name, now.dropped, bus.receiver.interface());
+    }
+    if (now.ring_full != bus.counters.ring_full) {
+        log_.limited("bus ring full", kRepeatAfter_s, Severity::kWarning,
+                     "source {}: {} frames of {} dropped so far: they came faster than frames take them",
+                     bus.name, now.ring_full, bus.receiver.interface());
+    }
+}
+
+const transport::CanReceiver* LiveWire::bus(std::size_t source) const noexcept {
+    const auto bus =
+        std::find_if(buses_.begin(), buses_.end(), [source](const Bus& one) { return one.source == source; });
+    return bus == buses_.end() ? nullptr : &bus->receiver;
+}
+
+std::vector<BusRow> LiveWire::bus_rows() const {
+    std::vector<BusRow> rows;
+    for (const Bus& bus : buses_) {
+        const transport::CanCounters counters = bus.receiver.counters();
+        rows.push_back({bus.name,
+                        bus.receiver.interface(),
+                        std::string(transport::to_text(bus.receiver.state())),
+                        {{"received", counters.received},
+                         {"fd_frames", counters.fd_frames},
+                         {"error_frames", counters.error_frames},
+                         {"dropped", counters.dropped},
+                         {"ring_full", counters.ring_full},
+                         {"went_down", counters.went_down},
+                         {"went_away", counters.went_away},
+                         {"opened", counters.opened},
+                         {"errors", counters.errors}}});
+    }
+    return rows;
 }
 
 bool LiveWire::send(std::size_t source, const transport::Endpoint& to, std::span<const std::byte> bytes) {

@@ -1,20 +1,26 @@
-// The sockets of all sources: where each is heard, and whose a datagram is.
+// The sockets of all sources: where each is heard, and whose a datagram is; the buses that are listened to.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "config/config.h"
+#include "protocol/transport/can_socket.h"
+#include "server/log.h"
+#include "server/report.h"
 #include "server/wire.h"
 
 namespace skyig::server {
 
 /// Sources of one address and port share a socket; a datagram there belongs to the first of them that allows
-/// its sender.
+/// its sender. A bus need not be there: its interface is waited for, and what becomes of it is told from
+/// drain(), so by the frame loop's thread. Without a bus in the settings nothing of CAN is touched.
 class LiveWire final : public Wire {
   public:
-    /// \throws std::runtime_error with one line when a socket cannot be had
-    explicit LiveWire(const config::Config& config);
+    /// `log` must outlive the wire. \throws std::runtime_error with one line when a socket cannot be had
+    LiveWire(const config::Config& config, Log& log);
 
     void open_frame(const FrameMark& /*mark*/, std::span<const std::byte> /*message*/) override {}
     void drain(ArrivalTaker& taker) override;
@@ -24,6 +30,10 @@ class LiveWire final : public Wire {
 
     /// Where a source is heard; nothing if it has no socket.
     [[nodiscard]] std::optional<protocol::transport::Endpoint> local(std::size_t source) const;
+
+    /// The bus of a source, or null.
+    [[nodiscard]] const protocol::transport::CanReceiver* bus(std::size_t source) const noexcept;
+    [[nodiscard]] std::vector<BusRow> bus_rows() const;
 
   private:
     struct Listener {
@@ -38,6 +48,19 @@ class LiveWire final : public Wire {
         std::optional<protocol::transport::UdpSender> sender;
     };
 
+    struct Bus {
+        std::size_t source = 0;
+        /// Of the source, for the log.
+        std::string name;
+        protocol::transport::CanReceiver receiver;
+        /// What has been told.
+        protocol::transport::CanState state;
+        protocol::transport::CanCounters counters;
+    };
+
+    void add_bus(std::size_t source, const config::Source& settings);
+    void tell(Bus& bus);
+    void tell_losses(const Bus& bus, const protocol::transport::CanCounters& now);
     void add(std::size_t source, const config::UdpAddress& listen,
              const std::vector<config::UdpAddress>& allow);
     static void open(Socket& socket);
@@ -45,7 +68,9 @@ class LiveWire final : public Wire {
     [[nodiscard]] static std::optional<std::size_t> owner(const Socket& socket,
                                                           const protocol::transport::Endpoint& from) noexcept;
 
+    Log& log_;
     std::vector<Socket> sockets_;
+    std::vector<Bus> buses_;
     /// Datagrams of an allowed address from a port that no source allows.
     std::uint64_t not_allowed_ = 0;
 };

@@ -74,6 +74,10 @@ std::string to_table(const RunReport& report) {
                        report.host_frames_behind_largest, report.host_losses);
     }
     fmt::format_to(out, "datagrams       {}\n", report.datagrams);
+    for (const BusRow& bus : report.buses) {
+        fmt::format_to(out, "bus             {} on {}, {}: {}\n", bus.source, bus.interface, bus.state,
+                       counts_text(bus.counts));
+    }
     fmt::format_to(out, "packets         {}\n", counts_text(report.packets));
     fmt::format_to(out, "rejected        {}\n", counts_text(report.rejects));
     fmt::format_to(out, "Start of Frame  {} sent, {} failed\n", report.start_of_frame_sent,
@@ -109,6 +113,13 @@ std::string to_json(const RunReport& report) {
                     {"frames_behind_median", report.host_frames_behind_median},
                     {"frames_behind_largest", report.host_frames_behind_largest}};
     json["datagrams"] = report.datagrams;
+    json["buses"] = nlohmann::ordered_json::array();
+    for (const BusRow& bus : report.buses) {
+        json["buses"].push_back({{"source", bus.source},
+                                 {"interface", bus.interface},
+                                 {"state", bus.state},
+                                 {"counts", counts_json(bus.counts)}});
+    }
     json["packets"] = counts_json(report.packets);
     json["rejects"] = counts_json(report.rejects);
     json["start_of_frame"] = {{"sent", report.start_of_frame_sent}, {"failed", report.start_of_frame_failed}};

@@ -63,6 +63,15 @@ struct NamedCount {
     std::uint64_t count = 0;
 };
 
+/// A CAN bus that was listened to.
+struct BusRow {
+    std::string source;
+    std::string interface;
+    /// At the end: "missing", "down", "up".
+    std::string state;
+    std::vector<NamedCount> counts;
+};
+
 struct RunReport {
     std::string version;
     std::string renderer;
@@ -82,6 +91,7 @@ struct RunReport {
     /// How often a host fell silent.
     std::uint64_t host_losses = 0;
     std::uint64_t datagrams = 0;
+    std::vector<BusRow> buses;
     std::vector<NamedCount> packets;
     std::vector<NamedCount> rejects;
     std::uint64_t start_of_frame_sent = 0;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "clients/skyig/decode_command.h"
 #include "clients/skyig/ephem/almanac.h"
 #include "clients/skyig/ephem/body_name.h"
 #include "clients/skyig/ephem/star_name.h"
@@ -250,16 +251,6 @@ void add_ephem(CLI::App& app, EphemOptions& options, std::string& horizon) {
     app.footer(kEphemFooter);
 }
 
-void add_decode(CLI::App& app, DecodeOptions& options) {
-    app.add_option("--can", options.can_path,
-                   "a log of candump -L, read as CANaerospace; - is standard input")
-        ->required()
-        ->type_name("FILE");
-    app.add_flag("--json", options.json, "tell each frame as a JSON object, one a line");
-    app.footer(
-        "A line that is no frame is told on stderr; the others are decoded, and the exit status is 1.");
-}
-
 /// "127.0.0.1:8004"; with `bare_port` also "8004", of this machine alone.
 CLI::Validator endpoint(bool bare_port) {
     const auto check = [bare_port](std::string& text) -> std::string {
@@ -341,8 +332,7 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
     add_ephem(
         *app.add_subcommand("ephem", "where Sun, Moon, planets and stars stand, and when things happen"),
         verbs.ephem, verbs.horizon);
-    add_decode(*app.add_subcommand("decode", "what recorded frames say, and what is wrong with them"),
-               verbs.decode);
+    add_decode(app, verbs.decode);
     add_replay(*app.add_subcommand("replay", "send the datagrams of a capture onto the network again"),
                verbs.replay);
     add_record(*app.add_subcommand("record", "write down what comes to UDP ports and over CAN buses"),

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "clients/skyig/bench.h"
-#include "clients/skyig/decode_can.h"
+#include "clients/skyig/decode.h"
 #include "clients/skyig/ephem.h"
 #include "clients/skyig/host.h"
 #include "clients/skyig/options.h"
@@ -24,7 +24,7 @@ int run(int argc, char** argv) {
     if (const auto* shot = std::get_if<ShotOptions>(&invocation.options)) return run_shot(*shot);
     if (const auto* bench = std::get_if<BenchOptions>(&invocation.options)) return run_bench(*bench);
     if (const auto* ephem = std::get_if<EphemOptions>(&invocation.options)) return run_ephem(*ephem);
-    if (const auto* decode = std::get_if<DecodeOptions>(&invocation.options)) return run_decode_can(*decode);
+    if (const auto* decode = std::get_if<DecodeOptions>(&invocation.options)) return run_decode(*decode);
     if (const auto* replay = std::get_if<ReplayOptions>(&invocation.options)) return run_replay(*replay);
     if (const auto* record = std::get_if<RecordOptions>(&invocation.options)) return run_record(*record);
     return invocation.exit_status;

@@ -98,10 +98,18 @@ struct EphemOptions {
     bool json = false;
 };
 
-/// skyig decode: recorded frames as text or JSON.
+/// skyig decode: what stands in messages and frames, as text or JSON; one of the sources is asked for.
 struct DecodeOptions {
     /// A candump log; "-" = standard input.
     std::string can_path;
+    /// CIGI in hexadecimal, a datagram each; none, or "-" alone: lines of standard input.
+    std::vector<std::string> cigi;
+    /// Messages of the image generator, not of a host.
+    bool from_ig = false;
+    /// Listen to CIGI here in place of reading text; 0 = a port of the system's choice.
+    std::optional<std::uint16_t> live_port;
+    /// Stop listening after so many datagrams.
+    std::optional<std::uint64_t> count;
     bool json = false;
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "protocol/cigi/counters.h"
+#include "protocol/cigi/field_access.h"
 #include "protocol/cigi/layout.h"
 #include "protocol/cigi/layout_host.h"
 #include "protocol/cigi/layout_ig.h"
@@ -15,11 +16,6 @@ constexpr std::uint16_t kMajor33 = 3;
 constexpr std::uint16_t kMajor40 = 4;
 constexpr std::uint8_t kMinor33 = 3;
 constexpr std::uint8_t kMinor40 = 0;
-
-/// 3.3 sends 100 octets of text at most, the NUL included; 4.0 what its 16-bit size can say.
-constexpr std::size_t kMaxText33 = 99;
-constexpr std::size_t kMaxTextPacket33 = 104;
-constexpr std::size_t kMaxPacket40 = 65528;
 
 template <std::size_t First, std::size_t... I>
 constexpr std::array<Shape, sizeof...(I)> shapes(Version version, std::index_sequence<I...> /*kinds*/) {
@@ -38,31 +34,34 @@ constexpr bool all_sound(std::index_sequence<I...> /*kinds*/) {
 static_assert(all_sound(AllKinds{}), "a field lies outside its packet, unaligned, or over another one");
 
 /// From id to the packet's place in `shapes` in one look; no two ids of one direction and version fold alike.
-template <std::size_t N>
 class KindOfId {
   public:
-    explicit constexpr KindOfId(const std::array<Shape, N>& shapes) noexcept : shapes_(shapes) {
+    template <std::size_t N>
+    explicit constexpr KindOfId(const std::array<Shape, N>& shapes) noexcept {
         for (std::size_t i = 0; i < N; ++i) {
             if (shapes[i].size == 0) continue;
-            std::uint8_t& slot = slots_[folded(shapes[i].id)];
-            distinct_ = distinct_ && slot == 0;
-            slot = static_cast<std::uint8_t>(i + 1);
+            Slot& slot = slots_[folded(shapes[i].id)];
+            distinct_ = distinct_ && slot.kind == kNone;
+            slot = {shapes[i].id, static_cast<std::uint16_t>(i)};
         }
     }
     [[nodiscard]] constexpr bool distinct() const noexcept { return distinct_; }
-    [[nodiscard]] std::optional<std::size_t> find(std::uint16_t id) const noexcept {
-        const std::size_t slot = slots_[folded(id)];
-        if (slot == 0 || shapes_[slot - 1].id != id) return std::nullopt;
-        return slot - 1;
+    [[nodiscard]] std::size_t find(std::uint16_t id, std::size_t first) const noexcept {
+        const Slot slot = slots_[folded(id)];
+        return slot.id == id && slot.kind != kNone ? first + slot.kind : kPacketKinds;
     }
 
   private:
+    static constexpr std::uint16_t kNone = 0xFFFF;
+    struct Slot {
+        std::uint16_t id = 0;
+        std::uint16_t kind = kNone;
+    };
     [[nodiscard]] static constexpr std::size_t folded(std::uint16_t id) noexcept {
         return (id ^ (id >> 8U)) & 0xFFU;
     }
 
-    std::array<Shape, N> shapes_;
-    std::array<std::uint8_t, 256> slots_{};  // 0: none
+    std::array<Slot, 256> slots_{};
     bool distinct_ = true;
 };
 
@@ -72,93 +71,6 @@ constexpr KindOfId kIgKinds33(shapes<kHostPacketKinds>(Version::k33, IgKinds{}))
 constexpr KindOfId kIgKinds40(shapes<kHostPacketKinds>(Version::k40, IgKinds{}));
 static_assert(kHostKinds33.distinct() && kHostKinds40.distinct() && kIgKinds33.distinct() &&
               kIgKinds40.distinct());
-
-constexpr unsigned mask_of(const Place& place) noexcept {
-    return (1U << place.bits) - 1U;
-}
-
-std::string_view text_at(std::span<const std::byte> bytes, std::size_t offset) noexcept {
-    const auto* begin = reinterpret_cast<const char*>(bytes.data()) + offset;
-    const char* end = begin + (bytes.size() - offset);
-    return {begin, static_cast<std::size_t>(std::find(begin, end, '\0') - begin)};
-}
-
-std::string_view fitting(std::string_view text, Version version, std::size_t offset) noexcept {
-    return text.substr(0, version == Version::k33 ? kMaxText33 : kMaxPacket40 - offset - 1);
-}
-
-/// A text need be neither padded nor ended by a NUL: senders exist that do neither.
-template <class P>
-bool fits(std::size_t bytes, Version version) noexcept {
-    const std::size_t size = shape_of<P>(version).size;
-    if constexpr (has_text<P>()) {
-        return bytes >= size && bytes <= (version == Version::k33 ? kMaxTextPacket33 : kMaxPacket40);
-    } else {
-        return size > 0 && bytes == size;
-    }
-}
-
-template <class P, Version V, ByteOrder Order, std::size_t I>
-void read_field(std::span<const std::byte> bytes, P& packet) noexcept {
-    constexpr const auto& kField = std::get<I>(Layout<P>::kFields);
-    constexpr Place kPlace = kField.place(V);
-    if constexpr (kPlace.present) {
-        using Value = typename std::decay_t<decltype(kField)>::Value;
-        Value& value = packet.*(kField.member);
-        if constexpr (std::is_same_v<Value, std::string_view>) {
-            value = text_at(bytes, kPlace.byte);
-        } else if constexpr (kPlace.bits > 0) {
-            const unsigned byte = std::to_integer<unsigned>(bytes[kPlace.byte]);
-            value = static_cast<Value>((byte >> kPlace.bit) & mask_of(kPlace));
-        } else {
-            value = static_cast<Value>(load<typename Raw<Value>::Type>(bytes.data() + kPlace.byte, Order));
-        }
-    }
-}
-
-template <class P, Version V, ByteOrder Order, std::size_t I>
-void write_field(const P& packet, std::byte* bytes) noexcept {
-    constexpr const auto& kField = std::get<I>(Layout<P>::kFields);
-    constexpr Place kPlace = kField.place(V);
-    if constexpr (kPlace.present) {
-        using Value = typename std::decay_t<decltype(kField)>::Value;
-        const Value& value = packet.*(kField.member);
-        if constexpr (std::is_same_v<Value, std::string_view>) {
-            const std::string_view text = fitting(value, V, kPlace.byte);
-            std::transform(text.begin(), text.end(), bytes + kPlace.byte,
-                           [](char c) { return static_cast<std::byte>(c); });
-        } else if constexpr (kPlace.bits > 0) {
-            const unsigned part = (static_cast<unsigned>(value) & mask_of(kPlace)) << kPlace.bit;
-            bytes[kPlace.byte] |= static_cast<std::byte>(part);
-        } else {
-            store(bytes + kPlace.byte, Order, static_cast<typename Raw<Value>::Type>(value));
-        }
-    }
-}
-
-template <class P, Version V, ByteOrder Order, std::size_t... I>
-void read_fields(std::span<const std::byte> bytes, P& packet, std::index_sequence<I...> /*fields*/) noexcept {
-    (read_field<P, V, Order, I>(bytes, packet), ...);
-}
-
-template <class P, Version V, ByteOrder Order, std::size_t... I>
-void write_fields(const P& packet, std::byte* bytes, std::index_sequence<I...> /*fields*/) noexcept {
-    (write_field<P, V, Order, I>(packet, bytes), ...);
-}
-
-/// Calls `use` with version and order as constants, so that every place and swap is settled when compiling.
-template <class Use>
-void with_constants(Version version, ByteOrder order, Use&& use) {
-    constexpr std::integral_constant<Version, Version::k33> k33;
-    constexpr std::integral_constant<Version, Version::k40> k40;
-    constexpr std::integral_constant<ByteOrder, ByteOrder::kLittle> kLittle;
-    constexpr std::integral_constant<ByteOrder, ByteOrder::kBig> kBig;
-    if (version == Version::k33) {
-        order == ByteOrder::kLittle ? use(k33, kLittle) : use(k33, kBig);
-    } else {
-        order == ByteOrder::kLittle ? use(k40, kLittle) : use(k40, kBig);
-    }
-}
 
 /// IG Control and Start of Frame say the version themselves: a struct that leaves it open gets the writer's.
 template <class P>
@@ -190,21 +102,12 @@ constexpr std::array<std::string_view, sizeof...(I)> names(std::index_sequence<I
 
 }  // namespace
 
-PacketHeader read_header(const std::byte* bytes, Version version, ByteOrder order) noexcept {
-    if (version == Version::k33)
-        return {std::to_integer<std::uint16_t>(bytes[0]), std::to_integer<std::uint16_t>(bytes[1])};
-    return {load<std::uint16_t>(bytes + 2, order), load<std::uint16_t>(bytes, order)};
+std::size_t host_packet_kind(Version version, std::uint16_t id) noexcept {
+    return (version == Version::k33 ? kHostKinds33 : kHostKinds40).find(id, 0);
 }
 
-std::optional<std::size_t> host_packet_kind(Version version, std::uint16_t id) noexcept {
-    return version == Version::k33 ? kHostKinds33.find(id) : kHostKinds40.find(id);
-}
-
-std::optional<std::size_t> ig_packet_kind(Version version, std::uint16_t id) noexcept {
-    const std::optional<std::size_t> found =
-        version == Version::k33 ? kIgKinds33.find(id) : kIgKinds40.find(id);
-    if (!found) return std::nullopt;
-    return kHostPacketKinds + *found;
+std::size_t ig_packet_kind(Version version, std::uint16_t id) noexcept {
+    return (version == Version::k33 ? kIgKinds33 : kIgKinds40).find(id, kHostPacketKinds);
 }
 
 std::string_view packet_name(std::size_t kind) noexcept {
@@ -214,10 +117,10 @@ std::string_view packet_name(std::size_t kind) noexcept {
 
 template <class P>
 bool read_packet(std::span<const std::byte> bytes, Version version, ByteOrder order, P& packet) noexcept {
-    if (!fits<P>(bytes.size(), version)) return false;
-    with_constants(version, order, [&](auto v, auto o) {
-        read_fields<P, decltype(v)::value, decltype(o)::value>(bytes, packet,
-                                                               std::make_index_sequence<kFieldCount<P>>{});
+    if (!detail::fits<P>(bytes.size(), version)) return false;
+    detail::with_constants(version, order, [&](auto v, auto o) {
+        detail::read_fields<P, decltype(v)::value, decltype(o)::value>(
+            bytes, packet, std::make_index_sequence<kFieldCount<P>>{});
     });
     return true;
 }
@@ -226,7 +129,7 @@ template <class P>
 std::size_t packet_bytes(const P& packet, Version version) noexcept {
     const std::size_t size = shape_of<P>(version).size;
     if constexpr (has_text<P>()) {
-        const std::size_t with_nul = size + fitting(packet.text, version, size).size() + 1;
+        const std::size_t with_nul = size + detail::fitting(packet.text, version, size).size() + 1;
         return (with_nul + 7) & ~std::size_t{7};
     } else {
         static_cast<void>(packet);
@@ -242,9 +145,9 @@ void write_packet(const P& packet, Version version, ByteOrder order, std::byte* 
     const PacketHeader header{shape_of<P>(version).id, static_cast<std::uint16_t>(size)};
     write_header(header, version, order, bytes);
     const P stamped = with_version(packet, version);
-    with_constants(version, order, [&](auto v, auto o) {
-        write_fields<P, decltype(v)::value, decltype(o)::value>(stamped, bytes,
-                                                                std::make_index_sequence<kFieldCount<P>>{});
+    detail::with_constants(version, order, [&](auto v, auto o) {
+        detail::write_fields<P, decltype(v)::value, decltype(o)::value>(
+            stamped, bytes, std::make_index_sequence<kFieldCount<P>>{});
     });
 }
 

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string_view>
 
@@ -27,13 +26,18 @@ struct PacketHeader {
 }
 
 /// `bytes` holds header_bytes(version) at least.
-[[nodiscard]] PacketHeader read_header(const std::byte* bytes, Version version, ByteOrder order) noexcept;
+[[nodiscard]] inline PacketHeader read_header(const std::byte* bytes, Version version,
+                                              ByteOrder order) noexcept {
+    if (version == Version::k33)
+        return {std::to_integer<std::uint16_t>(bytes[0]), std::to_integer<std::uint16_t>(bytes[1])};
+    return {load<std::uint16_t>(bytes + 2, order), load<std::uint16_t>(bytes, order)};
+}
 
-/// Kind of a packet that a host may send (index in AllPackets); none for an id that this library does not
-/// read.
-[[nodiscard]] std::optional<std::size_t> host_packet_kind(Version version, std::uint16_t id) noexcept;
+/// Kind of a packet that a host may send (index in AllPackets); kPacketKinds for an id that this library does
+/// not read.
+[[nodiscard]] std::size_t host_packet_kind(Version version, std::uint16_t id) noexcept;
 /// The same for a packet that an image generator may send.
-[[nodiscard]] std::optional<std::size_t> ig_packet_kind(Version version, std::uint16_t id) noexcept;
+[[nodiscard]] std::size_t ig_packet_kind(Version version, std::uint16_t id) noexcept;
 
 /// Reads one packet; `bytes` is the whole packet with its header. False, and nothing read, if its length is
 /// not the packet's in this version. Instantiated for every type of AllPackets.

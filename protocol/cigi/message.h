@@ -12,6 +12,7 @@
 
 #include "protocol/cigi/codec.h"
 #include "protocol/cigi/counters.h"
+#include "protocol/cigi/detect.h"
 #include "protocol/cigi/packet_list.h"
 #include "protocol/cigi/validate.h"
 #include "protocol/cigi/wire.h"
@@ -36,21 +37,6 @@ struct RefusedPacket {
     std::string_view field;
 };
 
-struct MessageSummary {
-    bool accepted = false;
-    Version version = Version::k33;
-    ByteOrder order = kNativeOrder;
-    /// Why the datagram was dropped (kShort .. kBadMagic), or why the walk ended early (kBadSize,
-    /// kTruncated).
-    std::optional<Count> fault;
-    /// Byte of the datagram where the fault lies; the datagram's length if there is none.
-    std::uint32_t offset = 0;
-};
-
-/// Version and order of a host-to-IG (IG-to-host) datagram from its first packet; counts nothing.
-[[nodiscard]] MessageSummary detect_host_message(std::span<const std::byte> bytes) noexcept;
-[[nodiscard]] MessageSummary detect_ig_message(std::span<const std::byte> bytes) noexcept;
-
 namespace detail {
 
 /// Goes from packet to packet of an accepted datagram by the stated sizes.
@@ -59,9 +45,27 @@ class PacketWalk {
     PacketWalk(std::span<const std::byte> bytes, MessageSummary& summary) noexcept
         : bytes_(bytes), summary_(summary) {}
     /// False at the end; a fault is then in the summary.
-    [[nodiscard]] bool next(PacketInfo& info) noexcept;
+    [[nodiscard]] bool next(PacketInfo& info) noexcept {
+        const std::size_t left = bytes_.size() - offset_;
+        if (left == 0) return false;
+        const std::size_t header_size = header_bytes(summary_.version);
+        if (left < header_size) return stop(Count::kTruncated);
+        const PacketHeader header = read_header(bytes_.data() + offset_, summary_.version, summary_.order);
+        if (header.size < header_size) return stop(Count::kBadSize);
+        if (header.size > left) return stop(Count::kTruncated);
+        info = {summary_.version, summary_.order, header.id, static_cast<std::uint32_t>(offset_),
+                bytes_.subspan(offset_, header.size)};
+        offset_ += header.size;
+        return true;
+    }
 
   private:
+    [[nodiscard]] bool stop(Count fault) noexcept {
+        summary_.fault = fault;
+        summary_.offset = static_cast<std::uint32_t>(offset_);
+        return false;
+    }
+
     std::span<const std::byte> bytes_;
     MessageSummary& summary_;
     std::size_t offset_ = 0;
@@ -87,21 +91,22 @@ void pass_over(Handler& handler, std::size_t kind, Count reason, const PacketInf
 template <class P, class Handler>
 void decode_packet(const PacketInfo& info, Handler& handler, Counters& counters, Validation validation) {
     P packet;
-    if (!read_packet(info.bytes, info.version, info.order, packet)) {
+    Verdict verdict;
+    const bool read = validation == Validation::kOn
+                          ? read_valid(info.bytes, info.version, info.order, packet, verdict)
+                          : read_packet(info.bytes, info.version, info.order, packet);
+    if (!read) {
         pass_over(handler, kPacketKind<P>, Count::kWrongSize, info, counters);
         return;
     }
-    if (validation == Validation::kOn) {
-        const Verdict verdict = validate(packet, info.version);
-        if (!verdict.accepted) {
-            ++counters[verdict.reason];
-            if constexpr (requires { handler.refused(RefusedPacket{}, info); }) {
-                handler.refused(RefusedPacket{kPacketKind<P>, verdict.reason, verdict.field}, info);
-            }
-            return;
+    if (!verdict.accepted) {
+        ++counters[verdict.reason];
+        if constexpr (requires { handler.refused(RefusedPacket{}, info); }) {
+            handler.refused(RefusedPacket{kPacketKind<P>, verdict.reason, verdict.field}, info);
         }
-        if (verdict.clamped) ++counters[Count::kClamped];
+        return;
     }
+    if (verdict.clamped) ++counters[Count::kClamped];
     ++counters.packets[kPacketKind<P>];
     deliver(handler, packet, info);
 }
@@ -110,16 +115,17 @@ void decode_packet(const PacketInfo& info, Handler& handler, Counters& counters,
 template <std::size_t First, class Handler, std::size_t... I>
 void decode_kind(std::size_t kind, const PacketInfo& info, Handler& handler, Counters& counters,
                  Validation validation, std::index_sequence<I...> /*kinds*/) {
-    (void)((kind == First + I ? (decode_packet<std::tuple_element_t<First + I, AllPackets>>(
-                                     info, handler, counters, validation),
-                                 true)
-                              : false) ||
-           ...);
+    using Decode = void (*)(const PacketInfo&, Handler&, Counters&, Validation);
+    static constexpr Decode kDecode[] = {
+        &decode_packet<std::tuple_element_t<First + I, AllPackets>, Handler>...};
+    kDecode[kind - First](info, handler, counters, validation);
 }
 
 template <std::size_t First, std::size_t Kinds, class Handler, class KindOf>
-MessageSummary decode_message(std::span<const std::byte> bytes, MessageSummary summary, Handler& handler,
+MessageSummary decode_message(std::span<const std::byte> bytes, const FirstPacket& first, Handler& handler,
                               Counters& counters, Validation validation, Count duplicate, KindOf kind_of_id) {
+    MessageSummary summary;
+    detect(bytes, first, summary);
     if (!summary.accepted) {
         ++counters[summary.fault.value_or(Count::kFirstPacket)];
         return summary;
@@ -128,14 +134,14 @@ MessageSummary decode_message(std::span<const std::byte> bytes, MessageSummary s
     PacketWalk walk(bytes, summary);
     PacketInfo info;
     while (walk.next(info)) {
-        const std::optional<std::size_t> kind = kind_of_id(info.version, info.id);
-        if (!kind) {
+        const std::size_t kind = kind_of_id(info.version, info.id);
+        if (kind == kPacketKinds) {
             ++counters[Count::kSkipped];
             if constexpr (requires { handler.skipped(info); }) handler.skipped(info);
-        } else if (*kind == First && info.offset != 0) {
-            pass_over(handler, *kind, duplicate, info, counters);
+        } else if (kind == First && info.offset != 0) {
+            pass_over(handler, kind, duplicate, info, counters);
         } else {
-            decode_kind<First>(*kind, info, handler, counters, validation, std::make_index_sequence<Kinds>{});
+            decode_kind<First>(kind, info, handler, counters, validation, std::make_index_sequence<Kinds>{});
         }
     }
     if (summary.fault) ++counters[*summary.fault];
@@ -152,7 +158,7 @@ MessageSummary decode_message(std::span<const std::byte> bytes, MessageSummary s
 template <class Handler>
 MessageSummary decode_host_message(std::span<const std::byte> bytes, Handler&& handler, Counters& counters,
                                    Validation validation = Validation::kOn) {
-    return detail::decode_message<0, kHostPacketKinds>(bytes, detect_host_message(bytes), handler, counters,
+    return detail::decode_message<0, kHostPacketKinds>(bytes, detail::kFromHost, handler, counters,
                                                        validation, Count::kDuplicateIgControl,
                                                        host_packet_kind);
 }
@@ -162,8 +168,7 @@ template <class Handler>
 MessageSummary decode_ig_message(std::span<const std::byte> bytes, Handler&& handler, Counters& counters,
                                  Validation validation = Validation::kOn) {
     return detail::decode_message<kHostPacketKinds, kPacketKinds - kHostPacketKinds>(
-        bytes, detect_ig_message(bytes), handler, counters, validation, Count::kDuplicateStartOfFrame,
-        ig_packet_kind);
+        bytes, detail::kFromIg, handler, counters, validation, Count::kDuplicateStartOfFrame, ig_packet_kind);
 }
 
 /// Builds a message in the caller's buffer. The caller adds IG Control or Start of Frame first.

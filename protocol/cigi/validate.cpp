@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "protocol/cigi/field_access.h"
 #include "protocol/cigi/layout.h"
 #include "protocol/cigi/layout_host.h"
 #include "protocol/cigi/layout_ig.h"
@@ -75,14 +76,15 @@ constexpr Bounds plain_bounds(const Range& range) noexcept {
     return turn_bounds(range.kind);
 }
 
-/// True if the value is finite and in its range. No branches: nearly all values of nearly all packets are.
+/// 1 if the value is finite and in its range, else 0. No branches: nearly all values of nearly all packets
+/// are.
 template <class P, Version V, std::size_t I>
-bool field_is_plain(const P& packet) noexcept {
+[[gnu::always_inline]] inline unsigned field_is_plain(const P& packet) noexcept {
     constexpr const auto& kField = std::get<I>(Layout<P>::kFields);
     using Value = typename std::decay_t<decltype(kField)>::Value;
     if constexpr (!kField.place(V).present || std::is_same_v<Value, bool> ||
                   std::is_same_v<Value, std::string_view>) {
-        return true;
+        return 1;
     } else if constexpr (std::is_floating_point_v<Value>) {
         constexpr Bounds kBounds = plain_bounds<Value>(kField.range);
         constexpr auto kLow = static_cast<Value>(kBounds.low);
@@ -90,19 +92,20 @@ bool field_is_plain(const P& packet) noexcept {
         const Value value = packet.*(kField.member);
         const bool above = kField.range.kind == Range::Kind::kPositive ? value > kLow : value >= kLow;
         const bool below = kField.range.kind == Range::Kind::kHalfOpen ? value < kHigh : value <= kHigh;
-        return above & below;
+        return unsigned{above} & unsigned{below};
     } else {
         using Number = typename Raw<Value>::Type;
         constexpr Bounds kBounds = plain_bounds<Number>(kField.range);
         const auto value = static_cast<std::int64_t>(static_cast<Number>(packet.*(kField.member)));
-        return (value >= static_cast<std::int64_t>(kBounds.low)) &
-               (value <= static_cast<std::int64_t>(kBounds.high));
+        const bool above = value >= static_cast<std::int64_t>(kBounds.low);
+        const bool below = value <= static_cast<std::int64_t>(kBounds.high);
+        return unsigned{above} & unsigned{below};
     }
 }
 
 template <class P, Version V, std::size_t... I>
-bool all_plain(const P& packet, std::index_sequence<I...> /*fields*/) noexcept {
-    return (field_is_plain<P, V, I>(packet) & ...);
+[[gnu::always_inline]] inline bool all_plain(const P& packet, std::index_sequence<I...> /*fields*/) noexcept {
+    return (field_is_plain<P, V, I>(packet) & ...) != 0;
 }
 
 template <class P>
@@ -263,6 +266,19 @@ void check_together(ViewDefinition& packet, Version /*version*/, Verdict& verdic
     }
 }
 
+/// True if all is plain. No byte of `bytes` can be one of a packet of one's own: so values stay in registers
+/// until they are checked.
+template <class P, Version V, ByteOrder Order>
+bool read_own(std::span<const std::byte> bytes, P& packet) noexcept {
+    constexpr std::make_index_sequence<kFieldCount<P>> kFields;
+    P own;
+    detail::read_fields<P, V, Order>(bytes, own, kFields);
+    prepare(own);
+    const bool plain = all_plain<P, V>(own, kFields);
+    packet = own;
+    return plain;
+}
+
 constexpr bool is_leap(int year) noexcept {
     return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
 }
@@ -296,8 +312,24 @@ Verdict validate(P& packet, Version version) noexcept {
     return verdict;
 }
 
+template <class P>
+bool read_valid(std::span<const std::byte> bytes, Version version, ByteOrder order, P& packet,
+                Verdict& verdict) noexcept {
+    if (!detail::fits<P>(bytes.size(), version)) return false;
+    bool plain = true;
+    detail::with_constants(version, order, [&](auto v, auto o) {
+        plain = read_own<P, decltype(v)::value, decltype(o)::value>(bytes, packet);
+    });
+    verdict = {};
+    if (!plain) check_fields(packet, version, verdict);
+    if (verdict.accepted) check_together(packet, version, verdict);
+    return true;
+}
+
 // The argument is a type, so no parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
-#define SKYIG_CIGI_INSTANTIATE(P) template Verdict validate<P>(P&, Version) noexcept;
+#define SKYIG_CIGI_INSTANTIATE(P)                       \
+    template Verdict validate<P>(P&, Version) noexcept; \
+    template bool read_valid<P>(std::span<const std::byte>, Version, ByteOrder, P&, Verdict&) noexcept;
 SKYIG_CIGI_HOST_PACKETS(SKYIG_CIGI_INSTANTIATE)
 SKYIG_CIGI_IG_PACKETS(SKYIG_CIGI_INSTANTIATE)
 #undef SKYIG_CIGI_INSTANTIATE

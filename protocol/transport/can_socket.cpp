@@ -29,8 +29,9 @@ constexpr int kKernelBufferBytes = 4 << 20;
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 constexpr std::uint8_t kFdFlags = 0x07;
 
+/// Who sees a count sees the state that was set before it.
 void add(std::atomic<std::uint64_t>& counter, std::uint64_t amount = 1) noexcept {
-    counter.fetch_add(amount, std::memory_order_relaxed);
+    counter.fetch_add(amount, std::memory_order_release);
 }
 
 void signal(const FileDescriptor& event) noexcept {
@@ -305,8 +306,9 @@ struct CanReceiver::State {
 
     void note_failure(int error) noexcept {
         if (error == ENETDOWN) {
-            if (current() == CanState::kUp) add(went_down);
+            const bool was_up = current() == CanState::kUp;
             look_at_interface();
+            if (was_up) add(went_down);
         } else if (error == ENODEV) {
             lose();
         } else {
@@ -402,7 +404,7 @@ CanState CanReceiver::state() const noexcept {
 
 CanCounters CanReceiver::counters() const noexcept {
     const auto value = [](const std::atomic<std::uint64_t>& counter) {
-        return counter.load(std::memory_order_relaxed);
+        return counter.load(std::memory_order_acquire);
     };
     const State& now = *state_;
     return {value(now.received),  value(now.fd_frames), value(now.error_frames),

@@ -31,7 +31,7 @@ inline constexpr std::size_t kMaxCanFilters = 512;
 
 struct CanOptions {
     /// Such as "can0"; 1..15 characters.
-    std::string interface{};
+    std::string interface {};
     /// CanFrame::bus of all that comes.
     std::uint8_t bus = 0;
     /// Data and remote frames that any of these lets through; empty: all. Error frames always come.
@@ -88,7 +88,8 @@ class CanReceiver {
     [[nodiscard]] const std::string& interface() const noexcept;
     /// Follows the interface within `retry`; down and away at once.
     [[nodiscard]] CanState state() const noexcept;
-    /// A frame that the kernel dropped shows with the next one that it could queue.
+    /// A frame that the kernel dropped shows with the next one that it could queue. A state() asked for after
+    /// the counters is no older than they are.
     [[nodiscard]] CanCounters counters() const noexcept;
 
   private:

@@ -15,6 +15,28 @@
 namespace skyig::protocol::cigi {
 namespace {
 
+bool inside(const Range& range, double value) {
+    switch (range.kind) {
+        case Range::Kind::kAny:
+            return true;
+        case Range::Kind::kClosed:
+            return value >= range.low && value <= range.high;
+        case Range::Kind::kHalfOpen:
+            return value >= range.low && value < range.high;
+        case Range::Kind::kPositive:
+            return value > 0.0;
+        case Range::Kind::kPercent:
+            return value >= 0.0 && value <= 100.0;
+        case Range::Kind::kHalfTurn:
+            return std::abs(value) <= 180.0;
+        case Range::Kind::kFullTurn:
+            return value >= 0.0 && value <= 360.0;
+        case Range::Kind::kTwoTurns:
+            break;
+    }
+    return std::abs(value) <= 360.0;
+}
+
 /// Checks all that validation promises of every packet.
 struct Promises {
     template <class P>
@@ -28,12 +50,7 @@ struct Promises {
             if constexpr (std::is_floating_point_v<Value>) {
                 finite = finite && std::isfinite(value);
                 const bool counts = field.counts == nullptr || field.counts(packet);
-                if (counts && field.range.kind == Range::Kind::kPercent)
-                    in_range = in_range && value >= 0 && value <= 100;
-                if (counts && field.range.kind == Range::Kind::kHalfTurn)
-                    in_range = in_range && std::abs(value) <= 180;
-                if (counts && field.range.kind == Range::Kind::kFullTurn)
-                    in_range = in_range && value >= 0 && value <= 360;
+                in_range = in_range && (!counts || inside(field.range, static_cast<double>(value)));
             } else if constexpr (std::is_same_v<Value, std::string_view>) {
                 for (const char c : value)
                     touched = touched + static_cast<unsigned char>(c);

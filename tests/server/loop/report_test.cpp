@@ -70,6 +70,7 @@ RunReport example() {
     report.host_protocol = "4.0 big-endian";
     report.host_losses = 2;
     report.datagrams = 149;
+    report.buses = {{"cockpit", "can0", "down", {{"received", 9}, {"dropped", 0}}}};
     report.packets = {{"ig_control", 149}, {"view_control", 0}};
     report.rejects = {{"short", 0}, {"truncated", 2}};
     report.start_of_frame_sent = 150;
@@ -91,6 +92,7 @@ TEST(Report, TableShowsWhatHappenedAndNoZeros) {
     EXPECT_THAT(
         table,
         HasSubstr("127.0.0.1:8005, CIGI 4.0 big-endian, 1 frames behind (median; largest 4), lost 2 times"));
+    EXPECT_THAT(table, HasSubstr("bus             cockpit on can0, down: received 9\n"));
     EXPECT_THAT(table, HasSubstr("packets         ig_control 149\n"));
     EXPECT_THAT(table, HasSubstr("rejected        truncated 2\n"));
     EXPECT_THAT(table, HasSubstr("150 sent, 0 failed"));
@@ -110,6 +112,8 @@ TEST(Report, JsonHoldsEveryCount) {
     EXPECT_EQ(json.at("renderer"), "4.5 \"quoted\"");
     EXPECT_EQ(json.at("times").at(1).at("name"), "left");
     EXPECT_EQ(json.at("times").at(1).at("median_ms"), 4.25);
+    EXPECT_EQ(json.at("buses").at(0).at("interface"), "can0");
+    EXPECT_EQ(json.at("buses").at(0).at("counts").at("dropped"), 0);
     EXPECT_EQ(json.at("packets").at("view_control"), 0);
     EXPECT_EQ(json.at("rejects").at("truncated"), 2);
     EXPECT_EQ(json.at("host").at("protocol"), "4.0 big-endian");
