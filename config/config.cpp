@@ -44,6 +44,7 @@ LoadResult parse_config(std::string_view text, const std::string& file_name) {
     LoadResult result;
     Config config = read_config(root, errors);
     config.ephemeris.earth_orientation = beside(file_name, config.ephemeris.earth_orientation);
+    config.record.file = beside(file_name, config.record.file);
     if (errors.empty()) {
         result.config = std::move(config);
     } else {

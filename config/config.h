@@ -105,6 +105,15 @@ struct Output {
     OutputKind kind = OutputKind::kHeadless;
 };
 
+/// What comes in is kept.
+struct Record {
+    /// Where recordings go, as a path from where the program runs (the file's is from where the settings
+    /// are); empty: nothing is recorded. kRecordTimeMark in it stands for the time at which one begins.
+    std::string file;
+};
+
+inline constexpr std::string_view kRecordTimeMark = "{time}";
+
 struct Config {
     Daemon daemon;
     Host host;
@@ -117,6 +126,7 @@ struct Config {
     Display display;
     Eye eye;
     Output output;
+    Record record;
     /// 1..kMaxChannels
     std::vector<Channel> channels;
 };

@@ -142,6 +142,22 @@ void read_output(TableReader table, Output& output) {
     table.finish();
 }
 
+void read_record(TableReader table, Record& record) {
+    const Value* value = table.text("file", record.file);
+    if (value != nullptr && record.file.empty())
+        table.error(*value, "file", "is empty; it must name a file such as \"{time}.pcapng\"");
+    // Another word in braces would become a part of the name, and every run would write over the last.
+    std::string rest = record.file;
+    if (const std::size_t at = rest.find(kRecordTimeMark); at != std::string::npos)
+        rest.erase(at, kRecordTimeMark.size());
+    if (value != nullptr && rest.find_first_of("{}") != std::string::npos) {
+        table.error(*value, "file",
+                    fmt::format("is \"{}\"; {} may stand in it once, other braces may not", record.file,
+                                kRecordTimeMark));
+    }
+    table.finish();
+}
+
 }  // namespace
 
 Config read_config(const Table& document, ErrorList& errors) {
@@ -159,6 +175,7 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_display(open_table(root, errors, "display"), config.display);
     read_eye(open_table(root, errors, "eye"), config.eye);
     read_output(open_table(root, errors, "output"), config.output);
+    read_record(open_table(root, errors, "record"), config.record);
     read_channels(root, errors, config.channels);
     root.finish();
     return config;

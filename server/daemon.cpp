@@ -113,6 +113,11 @@ class Outside {
         recording_wire_.emplace(plain_wire(), *recorder_);
     }
 
+    /// No more frames come.
+    void finish() {
+        if (recorder_) recorder_->finish();
+    }
+
     [[nodiscard]] Wire& wire() { return recording_wire_ ? *recording_wire_ : plain_wire(); }
     [[nodiscard]] Pace& pace() {
         if (replay_pace_) return *replay_pace_;
@@ -148,6 +153,25 @@ ephemeris::UtcClockTime start_of(const config::Config& config, const Outside& ou
         if (const auto recorded = ephemeris::parse_utc(outside.replay()->start_utc())) return *recorded;
     }
     return start_time(config.start, wall);
+}
+
+/// A replay is recorded on request only: its settings are those of the run that it replays.
+std::string record_path(const DaemonOptions& options, const config::Config& config, const Clock& wall) {
+    if (!options.record_path.empty()) {
+        std::error_code none;
+        if (std::filesystem::equivalent(options.record_path, options.replay_path, none))
+            throw std::runtime_error(fmt::format(
+                "{}: is the recording that is replayed; record into another file", options.record_path));
+        return options.record_path;
+    }
+    if (!options.replay_path.empty()) return {};
+    std::string path = config.record.file;
+    const std::size_t at = path.find(config::kRecordTimeMark);
+    if (at == std::string::npos) return path;
+    constexpr std::int64_t kSecondNs = 1'000'000'000;
+    std::string time = ephemeris::to_iso(ephemeris::UtcClockTime::from_unix(wall.utc_ns() / kSecondNs));
+    std::erase_if(time, [](char c) { return c == '-' || c == ':'; });
+    return path.replace(at, config::kRecordTimeMark.size(), time);
 }
 
 std::ofstream open_events(const std::string& path) {
@@ -204,10 +228,11 @@ void run(const DaemonOptions& options, const config::Config& config,
         options.hashes_path.empty() ? nullptr : std::make_unique<FrameHashes>(options.hashes_path);
     GlPainter painter(render_channels(config), display_settings(config));
     say_banner(log, config, painter, outside.heard(options, config));
-    if (!options.record_path.empty()) {
-        outside.record(options.record_path, config,
+    if (const std::string path = record_path(options, config, clock); !path.empty()) {
+        outside.record(path, config,
                        {ephemeris::to_iso(start_utc, 9), config.daemon.rate_hz, "skyigd " SKYIG_VERSION,
                         painter.description()});
+        log.info("records into {}", path);
     }
 
     FrameLoop loop(config,
@@ -218,6 +243,7 @@ void run(const DaemonOptions& options, const config::Config& config,
     running = &loop;
     loop.run([&stop] { return stop.requested(); });
     if (images) images->finish();
+    outside.finish();
     tell_ends(log, outside, painter.description());
 
     RunReport report = loop.report();

@@ -78,6 +78,11 @@ Recorder::Recorder(const std::string& path, const config::Config& config, const 
 }
 
 Recorder::~Recorder() {
+    finish();
+}
+
+void Recorder::finish() noexcept {
+    if (!thread_.joinable()) return;
     {
         const std::lock_guard lock(mutex_);
         stopping_ = true;
@@ -151,7 +156,8 @@ void Recorder::write_out() {
             last = wake_.wait_for(lock, kWriteEvery, [this] { return stopping_; });
         }
         ring_.drain(write);
-        std::fflush(file_.get());
+        // The system tells of a full disk here: a block may be torn, so that nothing may come after it.
+        if (std::fflush(file_.get()) != 0) file_failed_.store(true, std::memory_order_relaxed);
     }
 }
 

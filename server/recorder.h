@@ -46,8 +46,10 @@ class Recorder {
     Recorder& operator=(const Recorder&) = delete;
     Recorder(Recorder&&) = delete;
     Recorder& operator=(Recorder&&) = delete;
-    /// Writes out what is left.
     ~Recorder();
+
+    /// Writes out what is left and ends the file; what is handed over later is not in it.
+    void finish() noexcept;
 
     void mark(const FrameMark& mark, std::span<const std::byte> message) noexcept;
     void datagram(std::size_t source, const protocol::transport::Datagram& datagram) noexcept;

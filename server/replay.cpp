@@ -51,7 +51,7 @@ bool allows(const std::vector<config::UdpAddress>& allow, const transport::Endpo
 
 Replay::Replay(const std::string& path, const config::Config& config)
     : config_(config), reader_(open(path)), period_ns_(1e9 / config.daemon.rate_hz) {
-    read_facts();
+    read_facts(path);
     advance();
     // Packets before the first mark were never seen by a frame.
     while (has_marks_ && next_ != nullptr && !mark_of(*next_))
@@ -65,7 +65,7 @@ Replay::Replay(const std::string& path, const config::Config& config)
     origin_ns_ = next_->time_ns;
 }
 
-void Replay::read_facts() {
+void Replay::read_facts(const std::string& path) {
     const std::string_view comment = reader_.section_comment();
     has_marks_ = comment.substr(0, std::string_view(kRecordingTitle).size()) == kRecordingTitle;
     if (!has_marks_) return;
@@ -76,9 +76,9 @@ void Replay::read_facts() {
     const auto [end, fault] = std::from_chars(rate.data(), rate.data() + rate.size(), rate_hz);
     if (fault != std::errc{} || std::abs(rate_hz - config_.daemon.rate_hz) > 1e-9) {
         throw std::runtime_error(
-            fmt::format("the recording was made at {} Hz, the settings say daemon.rate_hz = {:g}; use the "
-                        "settings that it was made with",
-                        rate, config_.daemon.rate_hz));
+            fmt::format("{}: made at {} Hz; the settings say daemon.rate_hz = {:g}, replay it with those "
+                        "that it was made with",
+                        path, rate, config_.daemon.rate_hz));
     }
 }
 
@@ -122,28 +122,38 @@ void Replay::drain(ArrivalTaker& taker) {
     }
 }
 
-std::optional<std::size_t> Replay::source_of(const recording::CapturedPacket& packet) const noexcept {
-    const bool bus = packet.kind == recording::CapturedPacket::Kind::kCan;
-    std::size_t of_kind = 0;
-    std::optional<std::size_t> only;
-    const auto consider = [&of_kind, &only](std::size_t source) {
-        ++of_kind;
-        only = source;
-    };
-    if (!bus && config_.host.enabled) {
-        if (config_.host.listen.port == packet.to.port && allows(config_.host.allow, packet.from)) return 0;
-        consider(0);
-    }
-    std::size_t number = 0;
+std::optional<std::size_t> Replay::bus_of(const recording::CapturedPacket& packet) const noexcept {
+    const std::string& interface = reader_.interface_of_last().name;
+    std::optional<std::size_t> numbered;
+    std::size_t buses = 0;
+    std::size_t last = 0;
     for (std::size_t i = 0; i < config_.sources.size(); ++i) {
         const config::Source& source = config_.sources[i];
-        if (bus != (source.kind == config::SourceKind::kCanAerospace)) continue;
-        if (bus && (source.interface == reader_.interface_of_last().name || number++ == packet.can.bus))
-            return i + 1;
-        if (!bus && source.listen.port == packet.to.port && allows(source.allow, packet.from)) return i + 1;
-        consider(i + 1);
+        if (source.kind != config::SourceKind::kCanAerospace) continue;
+        if (source.interface == interface) return i + 1;
+        last = i + 1;
+        if (buses++ == packet.can.bus) numbered = last;
     }
-    return of_kind == 1 ? only : std::nullopt;
+    // A file of another machine, or one that does not name its interfaces.
+    return buses == 1 ? last : numbered;
+}
+
+std::optional<std::size_t> Replay::source_of(const recording::CapturedPacket& packet) const noexcept {
+    if (packet.kind == recording::CapturedPacket::Kind::kCan) return bus_of(packet);
+    std::size_t heard = 0;
+    std::size_t last = 0;
+    if (config_.host.enabled) {
+        if (config_.host.listen.port == packet.to.port && allows(config_.host.allow, packet.from)) return 0;
+        ++heard;
+    }
+    for (std::size_t i = 0; i < config_.sources.size(); ++i) {
+        const config::Source& source = config_.sources[i];
+        if (source.kind == config::SourceKind::kCanAerospace) continue;
+        if (source.listen.port == packet.to.port && allows(source.allow, packet.from)) return i + 1;
+        last = i + 1;
+        ++heard;
+    }
+    return heard == 1 ? std::optional(last) : std::nullopt;
 }
 
 void Replay::hand_over(const recording::CapturedPacket& packet, ArrivalTaker& taker) {

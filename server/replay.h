@@ -39,11 +39,15 @@ class Replay {
     /// Packets that are of no source.
     [[nodiscard]] std::uint64_t strangers() const noexcept { return strangers_; }
 
-  private:
-    void read_facts();
-    void advance();
+    /// Of a packet that stands for a frame's beginning and never was on a wire.
     [[nodiscard]] static std::optional<FrameMark> mark_of(
         const protocol::recording::CapturedPacket& packet) noexcept;
+
+  private:
+    void read_facts(const std::string& path);
+    void advance();
+    [[nodiscard]] std::optional<std::size_t> bus_of(
+        const protocol::recording::CapturedPacket& packet) const noexcept;
     [[nodiscard]] std::optional<std::size_t> source_of(
         const protocol::recording::CapturedPacket& packet) const noexcept;
     void hand_over(const protocol::recording::CapturedPacket& packet, ArrivalTaker& taker);

@@ -12,13 +12,15 @@
 #include "clients/skyig/ephem/almanac.h"
 #include "clients/skyig/ephem/star_name.h"
 #include "clients/skyig/options.h"
+#include "protocol/transport/endpoint.h"
 #include "server/ephemeris/time.h"
 
 namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kVerbs{"host", "shot", "bench", "ephem", "decode"};
+constexpr std::array<std::string_view, 7> kVerbs{"host",   "shot",   "bench", "ephem",
+                                                 "decode", "replay", "record"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -271,6 +273,59 @@ void add_ephem(CLI::App& app, EphemOptions& options, std::string& horizon) {
     app.footer(kEphemFooter);
 }
 
+/// "127.0.0.1:8004"; with `bare_port` also "8004", of this machine alone.
+CLI::Validator endpoint(bool bare_port) {
+    const auto check = [bare_port](std::string& text) -> std::string {
+        const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        if (bare_port && digits) text.insert(0, "127.0.0.1:");
+        const auto read = protocol::transport::parse_endpoint(text);
+        return read ? std::string() : read.error();
+    };
+    return {check, bare_port ? "[ADDRESS:]PORT" : "ADDRESS:PORT"};
+}
+
+CLI::Validator ipv4() {
+    const auto check = [](std::string& text) -> std::string {
+        const auto read = protocol::transport::parse_ipv4(text);
+        return read ? std::string() : read.error();
+    };
+    return {check, "ADDRESS"};
+}
+
+void add_replay(CLI::App& app, ReplayOptions& options) {
+    app.add_option("file", options.path, "a capture (pcapng, pcap); - is standard input")
+        ->required()
+        ->type_name("FILE");
+    app.add_option("--to", options.to, "where its datagrams go (127.0.0.1:8004)")->check(endpoint(false));
+    app.add_option("--port", options.ports, "only datagrams that went to these ports (all)")
+        ->check(CLI::Range(1, 65535))
+        ->type_name("PORT");
+    CLI::Option* speed =
+        app.add_option("--speed", options.speed, "times the recorded pace; 0 is as fast as it goes (1)")
+            ->check(finite_in(0.0, 1000.0));
+    app.add_flag(
+           "--step", options.step,
+           "each line of standard input sends the next: a frame of a daemon's recording, else a datagram")
+        ->excludes(speed);
+    app.add_flag("--json", options.json, "tell the results as JSON");
+    app.footer(
+        "CAN frames and a daemon's frame marks are left out. Each sender keeps a port of its own, not its "
+        "number.");
+}
+
+void add_record(CLI::App& app, RecordOptions& options) {
+    CLI::Option_group* what = app.add_option_group("what to record", "one at least");
+    what->add_option("--listen", options.listen, "UDP ports to record, as 8004 or 0.0.0.0:8004")
+        ->transform(endpoint(true));
+    what->add_option("--can", options.can, "CAN interfaces to record, as can0")->type_name("INTERFACE");
+    what->require_option(1, 2);
+    app.add_option("--from", options.from, "who may send (127.0.0.1)")->check(ipv4());
+    app.add_option("-o,--out", options.out_path, "the pcapng file to write")->required()->type_name("FILE");
+    app.add_option("--duration", options.duration_s, "seconds to record (until Ctrl-C)")
+        ->check(finite_in(0.0, 1e6));
+    app.add_flag("--json", options.json, "tell the results as JSON");
+}
+
 /// The first word that is no option, when it is no verb either.
 const char* unknown_verb(int argc, const char* const* argv) {
     if (argc < 2 || argv[1][0] == '-') return nullptr;
@@ -290,6 +345,46 @@ std::string usage_error(const char* what, const char* verb) {
                          : fmt::format("skyig {0}: {1} (skyig {0} --help tells the options)\n", known, what);
 }
 
+/// The options of every verb; one verb's are given.
+struct Verbs {
+    HostOptions host;
+    ShotOptions shot;
+    BenchOptions bench;
+    EphemOptions ephem;
+    DecodeOptions decode;
+    ReplayOptions replay;
+    RecordOptions record;
+    std::string order = "little";
+    std::string horizon = "almanac";
+};
+
+void add_verbs(CLI::App& app, Verbs& verbs) {
+    add_host(*app.add_subcommand("host", "fly a recorded flight at a daemon and tell what it answers"),
+             verbs.host, verbs.order);
+    add_shot(*app.add_subcommand("shot", "draw one still without a network"), verbs.shot);
+    add_bench(*app.add_subcommand("bench", "measure error and cost of every model of a family"), verbs.bench);
+    add_ephem(
+        *app.add_subcommand("ephem", "where Sun, Moon, planets and stars stand, and when things happen"),
+        verbs.ephem, verbs.horizon);
+    add_decode(app, verbs.decode);
+    add_replay(*app.add_subcommand("replay", "send the datagrams of a capture onto the network again"),
+               verbs.replay);
+    add_record(*app.add_subcommand("record", "write down what comes to UDP ports and over CAN buses"),
+               verbs.record);
+}
+
+void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
+    verbs.host.big_endian = verbs.order == "big";
+    verbs.ephem.eye_horizon = verbs.horizon == "eye";
+    if (app.got_subcommand("host")) invocation.options = verbs.host;
+    if (app.got_subcommand("shot")) invocation.options = verbs.shot;
+    if (app.got_subcommand("bench")) invocation.options = verbs.bench;
+    if (app.got_subcommand("ephem")) invocation.options = verbs.ephem;
+    if (app.got_subcommand("decode")) invocation.options = verbs.decode;
+    if (app.got_subcommand("replay")) invocation.options = verbs.replay;
+    if (app.got_subcommand("record")) invocation.options = verbs.record;
+}
+
 }  // namespace
 
 Invocation read_command_line(int argc, const char* const* argv) {
@@ -306,34 +401,12 @@ Invocation read_command_line(int argc, const char* const* argv) {
     app.require_subcommand(1);
     app.footer(
         "Exit status: 0 done, 1 the work failed, 2 wrong usage. skyig VERB --help tells a verb's options.");
-    HostOptions host;
-    ShotOptions shot;
-    BenchOptions bench;
-    EphemOptions ephem;
-    DecodeOptions decode;
-    std::string order = "little";
-    std::string horizon = "almanac";
-    CLI::App* host_verb =
-        app.add_subcommand("host", "fly a recorded flight at a daemon and tell what it answers");
-    CLI::App* shot_verb = app.add_subcommand("shot", "draw one still without a network");
-    CLI::App* bench_verb = app.add_subcommand("bench", "measure error and cost of every model of a family");
-    CLI::App* ephem_verb =
-        app.add_subcommand("ephem", "where Sun, Moon, planets and stars stand, and when things happen");
-    const CLI::App* decode_verb = add_decode(app, decode);
-    add_host(*host_verb, host, order);
-    add_shot(*shot_verb, shot);
-    add_bench(*bench_verb, bench);
-    add_ephem(*ephem_verb, ephem, horizon);
+    Verbs verbs;
+    add_verbs(app, verbs);
     try {
         app.parse(argc, argv);
-        host.big_endian = order == "big";
-        if (host_verb->parsed()) invocation.options = host;
-        if (shot_verb->parsed()) invocation.options = shot;
-        if (bench_verb->parsed()) invocation.options = bench;
-        ephem.eye_horizon = horizon == "eye";
-        require_one_body(ephem);
-        if (ephem_verb->parsed()) invocation.options = ephem;
-        if (decode_verb->parsed()) invocation.options = decode;
+        require_one_body(verbs.ephem);
+        take_verb(app, verbs, invocation);
     } catch (const CLI::CallForHelp&) {
         const std::vector<CLI::App*> asked = app.get_subcommands();
         invocation.output = (asked.empty() ? &app : asked.front())->help();

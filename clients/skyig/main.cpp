@@ -9,6 +9,8 @@
 #include "clients/skyig/ephem.h"
 #include "clients/skyig/host.h"
 #include "clients/skyig/options.h"
+#include "clients/skyig/record.h"
+#include "clients/skyig/replay.h"
 #include "clients/skyig/shot.h"
 
 namespace {
@@ -23,6 +25,8 @@ int run(int argc, char** argv) {
     if (const auto* bench = std::get_if<BenchOptions>(&invocation.options)) return run_bench(*bench);
     if (const auto* ephem = std::get_if<EphemOptions>(&invocation.options)) return run_ephem(*ephem);
     if (const auto* decode = std::get_if<DecodeOptions>(&invocation.options)) return run_decode(*decode);
+    if (const auto* replay = std::get_if<ReplayOptions>(&invocation.options)) return run_replay(*replay);
+    if (const auto* record = std::get_if<RecordOptions>(&invocation.options)) return run_record(*record);
     return invocation.exit_status;
 }
 

@@ -113,9 +113,40 @@ struct DecodeOptions {
     bool json = false;
 };
 
+/// skyig replay: a capture's datagrams onto the network.
+struct ReplayOptions {
+    /// pcapng or pcap; "-" = standard input.
+    std::string path;
+    /// Already checked.
+    std::string to = "127.0.0.1:8004";
+    /// Only datagrams that were captured on their way to these; empty = all.
+    std::vector<std::uint16_t> ports;
+    /// Of the recorded pace; 0 = as fast as it goes.
+    double speed = 1.0;
+    /// A line of standard input for each frame of a recording with frames, else for each datagram.
+    bool step = false;
+    bool json = false;
+};
+
+/// skyig record: UDP and CAN into a file; one port or bus at least.
+struct RecordOptions {
+    /// "127.0.0.1:8004", already checked.
+    std::vector<std::string> listen;
+    /// Addresses that are listened to, already checked.
+    std::vector<std::string> from{"127.0.0.1"};
+    /// Interfaces.
+    std::vector<std::string> can;
+    std::string out_path;
+    /// Until a signal if not given.
+    std::optional<double> duration_s;
+    bool json = false;
+};
+
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
-    std::variant<std::monostate, HostOptions, ShotOptions, BenchOptions, EphemOptions, DecodeOptions> options;
+    std::variant<std::monostate, HostOptions, ShotOptions, BenchOptions, EphemOptions, DecodeOptions,
+                 ReplayOptions, RecordOptions>
+        options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)
     std::string error;   ///< for stderr, one line

@@ -180,6 +180,22 @@ TEST(Config, EphemerisIsNamedAndItsFileFoundBesideTheSettings) {
                 HasSubstr("did you mean \"earth_orientation\""));
 }
 
+TEST(Config, RecordingIsNamedFromWhereTheSettingsAre) {
+    const auto file_of = [](std::string_view name) {
+        const LoadResult result =
+            parse_config(with(fmt::format("[record]\nfile = \"{}\"", name)), "sites/zrh.toml");
+        return result ? result.config->record.file : to_text(result.errors.front());
+    };
+    EXPECT_EQ(parse_config(with(""), "site.toml").config->record.file, "");
+    EXPECT_EQ(file_of("last.pcapng"), "sites/last.pcapng");
+    EXPECT_EQ(file_of("/var/lib/skyig/{time}.pcapng"), "/var/lib/skyig/{time}.pcapng");
+    EXPECT_THAT(file_of(""), HasSubstr("zrh.toml:3:8: record.file: is empty"));
+    EXPECT_THAT(file_of("{tiem}.pcapng"), HasSubstr("{time} may stand in it once"));
+    EXPECT_THAT(file_of("{time}{time}.pcapng"), HasSubstr("{time} may stand in it once"));
+    EXPECT_EQ(error_of(with("[record]\nfile = 5")).key, "record.file");
+    EXPECT_THAT(error_of(with("[record]\nflie = \"a\"")).message, HasSubstr("did you mean \"file\""));
+}
+
 TEST(Config, AdaptationFollowsTheDisplayUnlessGiven) {
     const LoadResult result = parse_config(with("[display]\nmax_luminance_cd_m2 = 80"), "site.toml");
     ASSERT_TRUE(result);
