@@ -36,11 +36,13 @@ class Inbox::Handler {
     }
 
     void refused(const cigi::RefusedPacket& packet, const cigi::PacketInfo& info) {
-        inbox_.log_.limited(
-            "packet refused", kRepeatAfter_s, Severity::kWarning,
-            "host {}: {} at byte {} of a message ignored: {} is {}", from_, cigi::packet_name(packet.kind),
-            info.offset, packet.field,
-            packet.reason == cigi::Count::kNonfinite ? "not a finite number" : "out of range");
+        const char* const fault =
+            packet.reason == cigi::Count::kNonfinite ? "not a finite number" : "out of range";
+        inbox_.log_.limited("packet refused", kRepeatAfter_s, Severity::kWarning,
+                            "host {}: {} at byte {} of a message ignored: {} is {}", from_,
+                            cigi::packet_name(packet.kind), info.offset, packet.field, fault);
+        inbox_.world_.outbox().messages.add(world::Matter::kPacketRefused, "{} at byte {}: {} is {}",
+                                            cigi::packet_name(packet.kind), info.offset, packet.field, fault);
     }
 
   private:
@@ -79,6 +81,8 @@ void Inbox::take_message(std::size_t source, const transport::Datagram& datagram
         cigi::decode_host_message(datagram.bytes, Handler(*this, source, datagram.from), counters_);
     if (!summary.fault) return;
     if (summary.accepted) {
+        world_.outbox().messages.add(world::Matter::kMessageCut, "message ignored from byte {} on: {}",
+                                     summary.offset, cigi::count_text(*summary.fault));
         log_.limited("message cut short", kRepeatAfter_s, Severity::kWarning,
                      "host {}: message ignored from byte {} on: {}", datagram.from, summary.offset,
                      cigi::count_text(*summary.fault));

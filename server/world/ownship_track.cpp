@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <GeographicLib/Geocentric.hpp>
-#include <GeographicLib/Math.hpp>
-#include <numbers>
 
 namespace skyig::server::world {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kSecondsPerTick = 1e-5;
 /// Two reports further apart than this in time, faster than any orbit or than any craft turns, are a
 /// reposition: no motion is read from them.
@@ -20,33 +16,6 @@ constexpr double kFastestTurn_rad_s = 15.0;
 constexpr double kOffsetDrift = 2e-4;
 /// A delay that grows by more than this at once is a sender that began anew.
 constexpr double kOffsetJump_s = 2.0;
-
-glm::dvec3 ecef_of(const ephemeris::Geodetic& place) noexcept {
-    glm::dvec3 ecef;
-    GeographicLib::Geocentric::WGS84().Forward(place.latitude_deg, place.longitude_deg, place.height_m,
-                                               ecef.x, ecef.y, ecef.z);
-    return ecef;
-}
-
-ephemeris::Geodetic geodetic_of(const glm::dvec3& ecef) noexcept {
-    ephemeris::Geodetic place;
-    GeographicLib::Geocentric::WGS84().Reverse(ecef.x, ecef.y, ecef.z, place.latitude_deg,
-                                               place.longitude_deg, place.height_m);
-    return place;
-}
-
-glm::dvec3 ecef_from_enu(const ephemeris::Geodetic& place, const glm::dvec3& enu) noexcept {
-    double sin_lat = 0.0;
-    double cos_lat = 1.0;
-    double sin_lon = 0.0;
-    double cos_lon = 1.0;
-    GeographicLib::Math::sincosd(place.latitude_deg, sin_lat, cos_lat);
-    GeographicLib::Math::sincosd(place.longitude_deg, sin_lon, cos_lon);
-    const glm::dvec3 east(-sin_lon, cos_lon, 0.0);
-    const glm::dvec3 north(-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat);
-    const glm::dvec3 up(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat);
-    return east * enu.x + north * enu.y + up * enu.z;
-}
 
 /// Rotation vector of the shorter way round.
 glm::dvec3 rotation_vector(glm::dquat turn) noexcept {
@@ -63,30 +32,7 @@ glm::dquat turn_by(const glm::dvec3& rotation) noexcept {
     return {std::cos(0.5 * angle), rotation.x * scale, rotation.y * scale, rotation.z * scale};
 }
 
-void set_attitude(Pose& pose, const glm::dquat& q) noexcept {
-    const double sine_pitch = std::clamp(2.0 * (q.w * q.y - q.z * q.x), -1.0, 1.0);
-    pose.pitch_deg = std::asin(sine_pitch) / kRadPerDeg;
-    if (std::abs(sine_pitch) > 1.0 - 1e-12) {
-        // Nose straight up or down: yaw and roll are one turn.
-        pose.yaw_deg = 2.0 * std::atan2(q.z, q.w) / kRadPerDeg;
-        pose.roll_deg = 0.0;
-        return;
-    }
-    pose.yaw_deg =
-        std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z)) / kRadPerDeg;
-    pose.roll_deg =
-        std::atan2(2.0 * (q.w * q.x + q.y * q.z), 1.0 - 2.0 * (q.x * q.x + q.y * q.y)) / kRadPerDeg;
-}
-
 }  // namespace
-
-glm::dquat ned_from_body(double yaw_deg, double pitch_deg, double roll_deg) noexcept {
-    const double half = 0.5 * kRadPerDeg;
-    const glm::dquat yaw(std::cos(yaw_deg * half), 0.0, 0.0, std::sin(yaw_deg * half));
-    const glm::dquat pitch(std::cos(pitch_deg * half), 0.0, std::sin(pitch_deg * half), 0.0);
-    const glm::dquat roll(std::cos(roll_deg * half), std::sin(roll_deg * half), 0.0, 0.0);
-    return yaw * pitch * roll;
-}
 
 double StampClock::seconds(std::uint32_t ticks) noexcept {
     if (!started_) {

@@ -6,20 +6,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
-#include "server/ephemeris/sky_state.h"
+#include "server/world/pose.h"
 
 namespace skyig::server::world {
-
-/// Place and attitude: about Z, then Y, then X of north-east-down axes; clockwise from true north, nose up,
-/// right wing down.
-struct Pose {
-    ephemeris::Geodetic position;
-    double yaw_deg = 0.0;
-    double pitch_deg = 0.0;
-    double roll_deg = 0.0;
-
-    friend bool operator==(const Pose&, const Pose&) = default;
-};
 
 /// Seconds of a sender's clock that counts 10 microseconds in 32 bits: differences survive the wrap after
 /// 11.9 h either way.
@@ -98,7 +87,5 @@ class OwnshipTrack {
     /// Turn a second, about body axes, radians.
     glm::dvec3 turn_rad_s_{0.0};
 };
-
-[[nodiscard]] glm::dquat ned_from_body(double yaw_deg, double pitch_deg, double roll_deg) noexcept;
 
 }  // namespace skyig::server::world

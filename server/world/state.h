@@ -92,24 +92,31 @@ struct Link {
 
 /// What was refused or ignored by the world, each by its reason (what the decoder refuses is counted there).
 struct Counters {
-    std::uint64_t second_host = 0;       ///< messages of a host that is not the one its source obeys
-    std::uint64_t not_in_charge = 0;     ///< data of which another source has the say
-    std::uint64_t no_host = 0;           ///< packets of a source without any valid IG Control yet
-    std::uint64_t standby_ignored = 0;   ///< packets other than IG Control in Standby
-    std::uint64_t late_ignored = 0;      ///< packets of a message that newer ones have overtaken
-    std::uint64_t frames_missed = 0;     ///< host messages that never came
-    std::uint64_t other_entity = 0;      ///< entities other than the ownship: not drawn
-    std::uint64_t ownship_attached = 0;  ///< the ownship attached to a parent: its offsets mean nothing here
-    std::uint64_t position_refused = 0;  ///< ownship outside the heights that are drawn
-    std::uint64_t clock_refused = 0;     ///< a date and time that does not exist
-    std::uint64_t air_refused = 0;       ///< values of the air that no sky has: those stay as they were
-    std::uint64_t unknown_view = 0;      ///< a view id that no channel has
-    std::uint64_t view_entity = 0;       ///< a view carried by another entity than the ownship
-    std::uint64_t view_offset = 0;       ///< an eye further than config::kMaxOffset_m from what carries it
-    std::uint64_t frustum_refused = 0;   ///< half angles that leave no picture
-    std::uint64_t orthographic = 0;      ///< parallel projection: not drawn
-    std::uint64_t mirrored = 0;          ///< mirror mode: not drawn
-    std::uint64_t weather_full = 0;      ///< no room for another region or layer
+    std::uint64_t second_host = 0;        ///< messages of a host that is not the one its source obeys
+    std::uint64_t not_in_charge = 0;      ///< data of which another source has the say
+    std::uint64_t no_host = 0;            ///< packets of a source without any valid IG Control yet
+    std::uint64_t standby_ignored = 0;    ///< packets other than IG Control in Standby
+    std::uint64_t late_ignored = 0;       ///< packets of a message that newer ones have overtaken
+    std::uint64_t frames_missed = 0;      ///< host messages that never came
+    std::uint64_t other_entity = 0;       ///< entities other than the ownship: not drawn
+    std::uint64_t ownship_attached = 0;   ///< the ownship attached to a parent: its offsets mean nothing here
+    std::uint64_t position_refused = 0;   ///< ownship outside the heights that are drawn
+    std::uint64_t clock_refused = 0;      ///< a date and time that does not exist
+    std::uint64_t air_refused = 0;        ///< values of the air that no sky has: those stay as they were
+    std::uint64_t unknown_view = 0;       ///< a view id that no channel has
+    std::uint64_t view_entity = 0;        ///< a view carried by another entity than the ownship
+    std::uint64_t view_offset = 0;        ///< an eye further than config::kMaxOffset_m from what carries it
+    std::uint64_t frustum_refused = 0;    ///< half angles that leave no picture
+    std::uint64_t orthographic = 0;       ///< parallel projection: not drawn
+    std::uint64_t mirrored = 0;           ///< mirror mode: not drawn
+    std::uint64_t weather_full = 0;       ///< no room for another region or layer
+    std::uint64_t surface_full = 0;       ///< no room for another sea or condition of the ground
+    std::uint64_t surface_entity = 0;     ///< sea or ground that hangs on an entity
+    std::uint64_t component_unknown = 0;  ///< a component that is not there, or a state that it has not
+    std::uint64_t request_unknown = 0;    ///< the place of something that is not there is asked
+    std::uint64_t request_full = 0;       ///< more requests wait than can be kept
+    std::uint64_t event_lost = 0;         ///< more events wait than can be kept
+    std::uint64_t ig_message_lost = 0;    ///< lines that Debug mode has left out
 
     friend bool operator==(const Counters&, const Counters&) = default;
 };
@@ -139,6 +146,13 @@ inline constexpr std::array kCounterNames{
     NamedCounter{"orthographic", &Counters::orthographic},
     NamedCounter{"mirrored", &Counters::mirrored},
     NamedCounter{"weather_full", &Counters::weather_full},
+    NamedCounter{"surface_full", &Counters::surface_full},
+    NamedCounter{"surface_entity", &Counters::surface_entity},
+    NamedCounter{"component_unknown", &Counters::component_unknown},
+    NamedCounter{"request_unknown", &Counters::request_unknown},
+    NamedCounter{"request_full", &Counters::request_full},
+    NamedCounter{"event_lost", &Counters::event_lost},
+    NamedCounter{"ig_message_lost", &Counters::ig_message_lost},
 };
 static_assert(sizeof(Counters) == kCounterNames.size() * sizeof(std::uint64_t));
 

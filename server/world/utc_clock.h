@@ -23,6 +23,9 @@ class UtcClock {
 
     void advance(double step_s) noexcept;
 
+    /// Stops or goes on where it stands.
+    void run(bool running) noexcept { running_ = running; }
+
     [[nodiscard]] const ephemeris::UtcClockTime& utc() const noexcept { return now_; }
     [[nodiscard]] bool running() const noexcept { return running_; }
 

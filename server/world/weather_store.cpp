@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "server/world/sorted_store.h"
+
 namespace skyig::server::world {
 namespace {
 
@@ -20,18 +22,24 @@ std::uint32_t key_of(const WeatherControl& layer) noexcept {
            static_cast<std::uint32_t>(entity ? 0 : layer.layer_id);
 }
 
-/// Puts `item` at its place in a sorted list that never grows beyond what it has reserved.
-template <class Item, class Key>
-bool store(std::vector<Item>& items, const Item& item, std::size_t most, Key key) noexcept {
-    const auto place = std::lower_bound(items.begin(), items.end(), item,
-                                        [key](const Item& a, const Item& b) { return key(a) < key(b); });
-    if (place != items.end() && key(*place) == key(item)) {
-        *place = item;
-        return true;
-    }
-    if (items.size() >= most) return false;
-    items.insert(place, item);
-    return true;
+std::uint16_t id_of(const EnvRegionControl& region) noexcept {
+    return region.region_id;
+}
+
+bool by_key(const WeatherControl& a, const WeatherControl& b) noexcept {
+    return key_of(a) < key_of(b);
+}
+
+bool by_id(const EnvRegionControl& a, const EnvRegionControl& b) noexcept {
+    return a.region_id < b.region_id;
+}
+
+WeatherControl probe(WeatherScope scope, std::uint16_t region_id, std::uint8_t layer_id) noexcept {
+    WeatherControl layer;
+    layer.scope = scope;
+    layer.entity_region_id = region_id;
+    layer.layer_id = layer_id;
+    return layer;
 }
 
 }  // namespace
@@ -39,37 +47,66 @@ bool store(std::vector<Item>& items, const Item& item, std::size_t most, Key key
 WeatherStore::WeatherStore() {
     layers_.reserve(kMaxLayers);
     regions_.reserve(kMaxRegions);
+    regions_sent_.reserve(kMaxRegions);
 }
 
 bool WeatherStore::set(const WeatherControl& layer) noexcept {
-    return store(layers_, layer, kMaxLayers, key_of);
+    return store_sorted(layers_, layer, kMaxLayers, key_of).has_value();
 }
 
 bool WeatherStore::set(const EnvRegionControl& region) noexcept {
-    const auto id_of = [](const EnvRegionControl& item) { return item.region_id; };
-    if (region.region_state != RegionState::kDestroyed) return store(regions_, region, kMaxRegions, id_of);
-    const auto place =
-        std::lower_bound(regions_.begin(), regions_.end(), region,
-                         [id_of](const auto& a, const auto& b) { return id_of(a) < id_of(b); });
-    if (place != regions_.end() && place->region_id == region.region_id) regions_.erase(place);
+    if (region.region_state != RegionState::kDestroyed) {
+        const auto stored = store_sorted(regions_, region, kMaxRegions, id_of);
+        if (!stored) return false;
+        const auto at = regions_sent_.begin() + static_cast<std::ptrdiff_t>(stored->index);
+        if (stored->added) {
+            regions_sent_.insert(at, ++sent_);
+        } else {
+            *at = ++sent_;
+        }
+        return true;
+    }
+    const auto place = std::lower_bound(regions_.begin(), regions_.end(), region, by_id);
+    if (place != regions_.end() && place->region_id == region.region_id) {
+        regions_sent_.erase(regions_sent_.begin() + (place - regions_.begin()));
+        regions_.erase(place);
+    }
     // The layers of one region stand together: found, not searched for.
-    WeatherControl lowest;
-    lowest.scope = WeatherScope::kRegional;
-    lowest.entity_region_id = region.region_id;
-    lowest.layer_id = 0;
-    WeatherControl highest = lowest;
-    highest.layer_id = 255;
-    const auto by_key = [](const WeatherControl& a, const WeatherControl& b) {
-        return key_of(a) < key_of(b);
-    };
-    layers_.erase(std::lower_bound(layers_.begin(), layers_.end(), lowest, by_key),
-                  std::upper_bound(layers_.begin(), layers_.end(), highest, by_key));
+    const std::span<const WeatherControl> gone = layers_of(WeatherScope::kRegional, region.region_id);
+    const auto first = layers_.begin() + (gone.data() - layers_.data());
+    layers_.erase(first, first + static_cast<std::ptrdiff_t>(gone.size()));
     return true;
 }
 
 void WeatherStore::clear() noexcept {
     layers_.clear();
     regions_.clear();
+    regions_sent_.clear();
+}
+
+std::span<const WeatherControl> WeatherStore::layers_of(WeatherScope scope,
+                                                        std::uint16_t region_id) const noexcept {
+    const auto first = std::lower_bound(layers_.begin(), layers_.end(), probe(scope, region_id, 0), by_key);
+    const auto last = std::upper_bound(first, layers_.end(), probe(scope, region_id, 255), by_key);
+    return {layers_.data() + (first - layers_.begin()), static_cast<std::size_t>(last - first)};
+}
+
+bool WeatherStore::enable_layer(WeatherScope scope, std::uint16_t region_id, std::uint8_t layer_id,
+                                bool enable) noexcept {
+    const WeatherControl wanted = probe(scope, region_id, layer_id);
+    const auto place = std::lower_bound(layers_.begin(), layers_.end(), wanted, by_key);
+    if (place == layers_.end() || key_of(*place) != key_of(wanted)) return false;
+    place->weather_enable = enable;
+    return true;
+}
+
+bool WeatherStore::enable_region(std::uint16_t region_id, bool enable) noexcept {
+    EnvRegionControl wanted;
+    wanted.region_id = region_id;
+    const auto place = std::lower_bound(regions_.begin(), regions_.end(), wanted, by_id);
+    if (place == regions_.end() || place->region_id != region_id) return false;
+    place->region_state = enable ? RegionState::kActive : RegionState::kInactive;
+    return true;
 }
 
 }  // namespace skyig::server::world

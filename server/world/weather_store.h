@@ -27,14 +27,27 @@ class WeatherStore {
     bool set(const protocol::cigi::EnvRegionControl& region) noexcept;
     void clear() noexcept;
 
+    /// Switches what is there and leaves all else as it was set. \return false when it is not there.
+    bool enable_layer(protocol::cigi::WeatherScope scope, std::uint16_t region_id, std::uint8_t layer_id,
+                      bool enable) noexcept;
+    bool enable_region(std::uint16_t region_id, bool enable) noexcept;
+
     [[nodiscard]] std::span<const protocol::cigi::WeatherControl> layers() const noexcept { return layers_; }
+    /// Those of one region; of the global scope with any id.
+    [[nodiscard]] std::span<const protocol::cigi::WeatherControl> layers_of(
+        protocol::cigi::WeatherScope scope, std::uint16_t region_id) const noexcept;
     [[nodiscard]] std::span<const protocol::cigi::EnvRegionControl> regions() const noexcept {
         return regions_;
     }
+    /// For each of regions(), a number that is the larger the later its last Environmental Region Control
+    /// came.
+    [[nodiscard]] std::span<const std::uint64_t> regions_sent() const noexcept { return regions_sent_; }
 
   private:
     std::vector<protocol::cigi::WeatherControl> layers_;
     std::vector<protocol::cigi::EnvRegionControl> regions_;
+    std::vector<std::uint64_t> regions_sent_;
+    std::uint64_t sent_ = 0;
 };
 
 }  // namespace skyig::server::world

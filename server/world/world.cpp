@@ -139,8 +139,11 @@ void World::operator()(const cigi::IgControl& packet, const cigi::PacketInfo& in
 void World::take_control(const cigi::IgControl& packet, const cigi::PacketInfo& info) {
     // Its frame numbers have nothing to do with those of whoever was in control before.
     if (session_source_ != source_) session_.new_peer();
+    if (session_source_.value_or(source_) != source_) outbox_.clear();
     session_source_ = source_;
     const cigi::SessionEvents events = session_.receive(packet, info.version, info.order);
+    if (events.host_restarted) outbox_.clear();
+    outbox_.messages.open(mode() == cigi::IgMode::kDebug);
     verdict_ = events.obey ? Verdict::kObeyed : events.late ? Verdict::kLate : Verdict::kStandby;
     if (events.entered_standby) reset();
     note_events(events);
@@ -162,9 +165,14 @@ bool World::claim_peer(const cigi::PacketInfo& info) {
     }
     if (!spoken_for) {
         peer.stamps.reset();
-        if (session_source_ == source_) session_source_.reset();
+        if (session_source_ == source_) {
+            session_source_.reset();
+            // One that comes back finds what it has asked for, another does not hear it.
+            if (from_ != peer.endpoint) outbox_.clear();
+        }
     }
-    authority_.heard(source_);
+    if (authority_.heard(source_) && !spoken_for)
+        raise(Event::kSourceHeard, static_cast<std::uint32_t>(source_), 0);
     peer.endpoint = from_;
     return true;
 }
@@ -222,12 +230,16 @@ void World::reset() {
     air_ = configured_air(config_.air);
     views_.reset();
     weather_.clear();
+    surfaces_.clear();
+    outbox_.clear();
 }
 
 void World::operator()(const cigi::EntityControl& packet, const cigi::PacketInfo& info) {
     if (!obeys(config::Aspect::kOwnship)) return;
     if (packet.entity_id != 0) {
         ++counters_.other_entity;
+        outbox_.messages.add(Matter::kPacketIgnored, "entity {}: only the ownship is drawn",
+                             packet.entity_id);
         return;
     }
     ownship_.exists = packet.entity_state != cigi::EntityState::kDestroyed;
@@ -241,6 +253,8 @@ void World::operator()(const cigi::EntityPosition& packet) {
     if (!obeys(config::Aspect::kOwnship)) return;
     if (packet.entity_id != 0) {
         ++counters_.other_entity;
+        outbox_.messages.add(Matter::kPacketIgnored, "entity {}: only the ownship is drawn",
+                             packet.entity_id);
         return;
     }
     // The position may come before, or without, the packet that creates the ownship.
@@ -251,6 +265,8 @@ void World::operator()(const cigi::EntityPosition& packet) {
 bool World::is_drawn(const ephemeris::Geodetic& position) {
     if (ephemeris::is_valid(position)) return true;
     ++counters_.position_refused;
+    outbox_.messages.add(Matter::kPacketIgnored, "ownship at {:g} m: heights from {:g} to {:g} m are drawn",
+                         position.height_m, ephemeris::kMinEyeHeight_m, ephemeris::kMaxEyeHeight_m);
     log_.limited("position refused", kRepeatAfter_s, Severity::kWarning,
                  "ownship at {} m ignored: heights from {} to {} m can be drawn", position.height_m,
                  ephemeris::kMinEyeHeight_m, ephemeris::kMaxEyeHeight_m);
@@ -260,6 +276,7 @@ bool World::is_drawn(const ephemeris::Geodetic& position) {
 void World::place_ownship(bool attached, const Pose& pose) {
     if (attached) {
         ++counters_.ownship_attached;
+        outbox_.messages.add(Matter::kPacketIgnored, "the ownship is attached to an entity: not supported");
         log_.limited("ownship attached", kRepeatAfter_s, Severity::kWarning,
                      "the ownship is attached to another entity: not supported, its last place is held");
         return;
@@ -294,6 +311,8 @@ void World::note_clock_step(const ephemeris::UtcClockTime& before) {
     log_.limited("clock", kRepeatAfter_s, Severity::kInfo,
                  "clock set to {:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", now.year, now.month, now.day, now.hour,
                  now.minute, static_cast<int>(now.second));
+    raise(Event::kClockSet, cigi::make_date({now.year, now.month, now.day}),
+          static_cast<std::uint32_t>(now.hour * 10000 + now.minute * 100 + static_cast<int>(now.second)));
 }
 
 void World::operator()(const cigi::AtmosphereControl& packet) {
@@ -315,7 +334,9 @@ void World::operator()(const cigi::WeatherControl& packet) {
 }
 
 void World::operator()(const cigi::EnvRegionControl& packet) {
-    if (obeys(config::Aspect::kWeather) && !weather_.set(packet)) ++counters_.weather_full;
+    if (!obeys(config::Aspect::kWeather)) return;
+    if (!weather_.set(packet)) ++counters_.weather_full;
+    if (packet.region_state == cigi::RegionState::kDestroyed) surfaces_.forget_region(packet.region_id);
 }
 
 void World::operator()(const cigi::ViewControl& packet) {
@@ -354,6 +375,7 @@ void World::note_view(ViewResult result, std::uint16_t view_id) {
     ++(counters_.*fault.counter);
     // The text is a literal, one for each fault: it serves as the key.
     log_.limited(fault.text, kRepeatAfter_s, Severity::kWarning, "view {}: {}", view_id, fault.text);
+    outbox_.messages.add(Matter::kPacketIgnored, "view {}: {}", view_id, fault.text);
 }
 
 void World::advance(double step_s) {
@@ -365,11 +387,15 @@ void World::advance(double step_s) {
     clock_.advance(step_s);
     if (!config_.start.utc) default_utc_.advance(step_s);
     supervise(step_s);
+    outbox_.messages.advance(step_s);
+    counters_.ig_message_lost = outbox_.messages.left_out();
 }
 
 void World::supervise(double step_s) {
     authority_.advance(step_s, [this](const LinkChange& change) {
         if (change.to != LinkState::kLost) return;
+        raise(Event::kSourceLost, static_cast<std::uint32_t>(change.source),
+              static_cast<std::uint32_t>(authority_.losses(change.source)));
         const std::string& name = authority_.rule(change.source).name;
         log_.limited("host lost", kRepeatAfter_s, Severity::kWarning,
                      "{} {} lost: silent for {:.1f} s; the picture stays as it was, its clock goes on", name,

@@ -12,8 +12,10 @@
 #include "server/ephemeris/time.h"
 #include "server/log.h"
 #include "server/world/authority.h"
+#include "server/world/outbox.h"
 #include "server/world/reports.h"
 #include "server/world/state.h"
+#include "server/world/surface_store.h"
 #include "server/world/utc_clock.h"
 #include "server/world/views.h"
 #include "server/world/weather_store.h"
@@ -47,6 +49,14 @@ class World {
     void operator()(const protocol::cigi::EnvRegionControl& packet);
     void operator()(const protocol::cigi::ViewControl& packet);
     void operator()(const protocol::cigi::ViewDefinition& packet);
+    void operator()(const protocol::cigi::MaritimeSurfaceControl& packet);
+    void operator()(const protocol::cigi::TerrestrialSurfaceControl& packet);
+    void operator()(const protocol::cigi::ComponentControl& packet);
+    void operator()(const protocol::cigi::ShortComponentControl& packet);
+    /// Requests of the host in control are kept until outbox() is emptied.
+    void operator()(const protocol::cigi::HatHotRequest& packet);
+    void operator()(const protocol::cigi::PositionRequest& packet);
+    void operator()(const protocol::cigi::EnvConditionsRequest& packet);
 
     /// A source that speaks no CIGI lives, and what it says. Taken where the source has the say, unless a
     /// living host keeps the world in Standby.
@@ -83,7 +93,11 @@ class World {
     [[nodiscard]] const AirState& air() const noexcept { return air_; }
     [[nodiscard]] const Views& views() const noexcept { return views_; }
     [[nodiscard]] const WeatherStore& weather() const noexcept { return weather_; }
+    [[nodiscard]] const SurfaceStore& surfaces() const noexcept { return surfaces_; }
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+    /// What is to be said to the host in control.
+    [[nodiscard]] Outbox& outbox() noexcept { return outbox_; }
+    [[nodiscard]] const Outbox& outbox() const noexcept { return outbox_; }
 
     /// Scene time, seconds since start: the sum of all steps, and of the steps of the UTC clock by more than
     /// kClockJump_s when somebody set it. It runs while the UTC clock is frozen.
@@ -103,6 +117,14 @@ class World {
 
     /// Whether what the current message says about `aspect` counts; if not, says so in the counters.
     [[nodiscard]] bool obeys(config::Aspect aspect) noexcept;
+    /// The same for what only the host in control may ask, even where nobody else claims control.
+    [[nodiscard]] bool may_ask() noexcept;
+    template <class Packet>
+    void take_request(const Packet& packet);
+    /// \return false when there is no such component
+    [[nodiscard]] bool switch_sky(const protocol::cigi::ComponentControl& packet) noexcept;
+    [[nodiscard]] bool switch_weather(const protocol::cigi::ComponentControl& packet) noexcept;
+    void raise(Event event, std::uint32_t data_1, std::uint32_t data_2) noexcept;
     /// False if another host of the same source has it.
     [[nodiscard]] bool claim_peer(const protocol::cigi::PacketInfo& info);
     void say_second_host();
@@ -146,6 +168,8 @@ class World {
     AirState air_;
     Views views_;
     WeatherStore weather_;
+    SurfaceStore surfaces_;
+    Outbox outbox_;
     Counters counters_;
     double time_s_ = 0.0;
     /// The sum of all steps alone.

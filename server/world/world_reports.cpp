@@ -24,6 +24,7 @@ void World::heard(std::size_t source) {
     if (!change) return;
     const char* const what = change->from == LinkState::kWaiting ? "is heard" : "is back";
     if (change->from == LinkState::kStale) return;
+    raise(Event::kSourceHeard, static_cast<std::uint32_t>(source), 0);
     log_.limited("source heard", kRepeatAfter_s, Severity::kNotice, "{} {}", authority_.rule(source).name,
                  what);
 }

@@ -237,7 +237,7 @@ TEST(WorldLink, EveryCounterHasItsName) {
     for (const NamedCounter& counter : kCounterNames)
         counters.*counter.value = ++value;
     EXPECT_EQ(counters.second_host, 1U);
-    EXPECT_EQ(counters.weather_full, kCounterNames.size());
+    EXPECT_EQ(counters.ig_message_lost, kCounterNames.size());
     for (std::size_t i = 0; i < kCounterNames.size(); ++i)
         EXPECT_EQ(counters.*kCounterNames[i].value, i + 1);
 }

@@ -1,0 +1,233 @@
+#include "server/world/conditions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+namespace skyig::server::world {
+
+using protocol::cigi::EnvRegionControl;
+using protocol::cigi::MaritimeSurfaceControl;
+using protocol::cigi::RegionState;
+using protocol::cigi::TerrestrialSurfaceControl;
+using protocol::cigi::WeatherControl;
+using protocol::cigi::WeatherScope;
+
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+/// That of a visibility of a millimetre: what is less counts as none.
+constexpr double kDensest_1_m = 1000.0;
+
+/// How a value of several that hold at one place is made of them.
+enum class Together : std::uint8_t { kMean, kSum };
+
+/// Values laid over each other in groups: within a group they are combined, a finished group covers what lies
+/// below it by its largest weight.
+template <std::size_t N>
+class Blend {
+  public:
+    using Values = std::array<double, N>;
+
+    Blend(const Values& base, const std::array<Together, N>& together) noexcept
+        : below_(base), together_(together) {}
+
+    void add(double weight, const Values& values) noexcept {
+        for (std::size_t i = 0; i < N; ++i)
+            sums_[i] += weight * values[i];
+        weight_sum_ += weight;
+        largest_ = std::max(largest_, weight);
+    }
+
+    /// What is added from here on covers what was.
+    void cover() noexcept {
+        if (weight_sum_ <= 0.0) return;
+        for (std::size_t i = 0; i < N; ++i) {
+            const double divisor = together_[i] == Together::kSum ? largest_ : weight_sum_;
+            below_[i] += largest_ * (sums_[i] / divisor - below_[i]);
+        }
+        touched_ = true;
+        sums_ = {};
+        weight_sum_ = largest_ = 0.0;
+    }
+
+    /// Something was added, up to the last cover().
+    [[nodiscard]] bool touched() const noexcept { return touched_; }
+    [[nodiscard]] const Values& values() const noexcept { return below_; }
+
+  private:
+    Values below_;
+    std::array<Together, N> together_;
+    Values sums_{};
+    double weight_sum_ = 0.0;
+    double largest_ = 0.0;
+    bool touched_ = false;
+};
+
+constexpr std::array kAirTogether{Together::kSum,  Together::kMean, Together::kMean, Together::kMean,
+                                  Together::kMean, Together::kMean, Together::kMean};
+using AirValues = std::array<double, kAirTogether.size()>;
+
+AirValues air_values(double visibility_m, double temperature_c, double humidity_pct, double pressure_hpa,
+                     double wind_m_s, double wind_from_deg, double wind_up_m_s) noexcept {
+    const double from_rad = wind_from_deg * kRadPerDeg;
+    return {1.0 / std::max(visibility_m, 1.0 / kDensest_1_m),
+            temperature_c,
+            humidity_pct,
+            pressure_hpa,
+            wind_m_s * std::sin(from_rad),
+            wind_m_s * std::cos(from_rad),
+            wind_up_m_s};
+}
+
+AirValues air_values(const WeatherControl& layer) noexcept {
+    return air_values(static_cast<double>(layer.visibility), static_cast<double>(layer.air_temperature),
+                      static_cast<double>(layer.humidity), static_cast<double>(layer.pressure),
+                      static_cast<double>(layer.wind_horizontal), static_cast<double>(layer.wind_direction),
+                      static_cast<double>(layer.wind_vertical));
+}
+
+AirState air_of(const AirState& base, const AirValues& values) noexcept {
+    AirState air = base;
+    air.visibility_m = values[0] >= kDensest_1_m ? 0.0 : 1.0 / values[0];
+    air.temperature_c = values[1];
+    air.humidity_pct = values[2];
+    air.pressure_hpa = values[3];
+    air.wind_horizontal_m_s = std::hypot(values[4], values[5]);
+    const double from_deg = std::atan2(values[4], values[5]) / kRadPerDeg;
+    air.wind_from_deg = from_deg < 0.0 ? from_deg + 360.0 : from_deg;
+    air.wind_vertical_m_s = values[6];
+    return air;
+}
+
+/// Calls `add(layer, weight)` for the enabled layers at the height. `cover()` comes before the first.
+template <class Cover, class Add>
+void each_layer(std::span<const WeatherControl> layers, double part, double height_m, Cover&& cover,
+                Add&& add) noexcept {
+    bool first = true;
+    for (const WeatherControl& layer : layers) {
+        if (!layer.weather_enable) continue;
+        const double weight = part * layer_weight(layer, height_m);
+        if (weight <= 0.0) continue;
+        if (std::exchange(first, false)) cover();
+        add(layer, weight);
+    }
+}
+
+}  // namespace
+
+RegionsAt::RegionsAt(const WeatherStore& weather, const GroundPoint& point) noexcept {
+    const auto regions = weather.regions();
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        if (regions[i].region_state != RegionState::kActive) continue;
+        const double weight = region_weight(regions[i], point);
+        if (weight > 0.0) regions_[count_++] = {&regions[i], weather.regions_sent()[i], weight};
+    }
+    std::sort(regions_.begin(), regions_.begin() + static_cast<std::ptrdiff_t>(count_),
+              [](const RegionAt& a, const RegionAt& b) { return a.sent < b.sent; });
+}
+
+double layer_weight(const WeatherControl& layer, double height_m) noexcept {
+    const double base_m = static_cast<double>(layer.base_elevation);
+    const double top_m = base_m + static_cast<double>(layer.thickness);
+    if (height_m >= base_m && height_m <= top_m) return 1.0;
+    const bool below = height_m < base_m;
+    const double outside_m = below ? base_m - height_m : height_m - top_m;
+    const double band_m = static_cast<double>(below ? layer.transition_band : layer.top_transition_band);
+    return outside_m < band_m ? 1.0 - outside_m / band_m : 0.0;
+}
+
+AirState air_at(const AirState& base, const WeatherStore& weather, const RegionsAt& regions,
+                double height_m) noexcept {
+    Blend<kAirTogether.size()> blend(
+        air_values(base.visibility_m, base.temperature_c, base.humidity_pct, base.pressure_hpa,
+                   base.wind_horizontal_m_s, base.wind_from_deg, base.wind_vertical_m_s),
+        kAirTogether);
+    const auto add = [&](const WeatherControl& layer, double weight) {
+        blend.add(weight, air_values(layer));
+    };
+    each_layer(
+        weather.layers_of(WeatherScope::kGlobal, 0), 1.0, height_m, [] {}, add);
+    bool over_global = false;
+    for (const RegionAt& at : regions) {
+        const auto cover = [&] {
+            if (!std::exchange(over_global, true) || !at.region->merge_weather) blend.cover();
+        };
+        each_layer(weather.layers_of(WeatherScope::kRegional, at.region->region_id), at.weight, height_m,
+                   cover, add);
+    }
+    blend.cover();
+    return blend.touched() ? air_of(base, blend.values()) : base;
+}
+
+Aerosols aerosols_at(const WeatherStore& weather, const RegionsAt& regions, double height_m) noexcept {
+    struct OfLayer {
+        Blend<1> blend{{0.0}, {Together::kMean}};
+        bool over_global = false;
+    };
+    std::array<OfLayer, 256> of{};
+    each_layer(
+        weather.layers_of(WeatherScope::kGlobal, 0), 1.0, height_m, [] {},
+        [&](const WeatherControl& layer, double weight) {
+            of[layer.layer_id].blend.add(weight, {static_cast<double>(layer.aerosol)});
+        });
+    for (const RegionAt& at : regions) {
+        each_layer(
+            weather.layers_of(WeatherScope::kRegional, at.region->region_id), at.weight, height_m, [] {},
+            [&](const WeatherControl& layer, double weight) {
+                OfLayer& here = of[layer.layer_id];
+                if (!std::exchange(here.over_global, true) || !at.region->merge_aerosol) here.blend.cover();
+                here.blend.add(weight, {static_cast<double>(layer.aerosol)});
+            });
+    }
+    Aerosols aerosols;
+    for (std::size_t id = 0; id < of.size(); ++id) {
+        of[id].blend.cover();
+        aerosols.layers[id] = {of[id].blend.touched(), of[id].blend.values()[0]};
+    }
+    return aerosols;
+}
+
+SeaState sea_at(const SurfaceStore& surfaces, const RegionsAt& regions) noexcept {
+    const SeaState calm;
+    Blend<3> blend({calm.height_m, calm.temperature_c, calm.clarity_pct},
+                   {Together::kMean, Together::kMean, Together::kMean});
+    const auto add = [&blend](double weight, const MaritimeSurfaceControl& sea) {
+        blend.add(weight, {static_cast<double>(sea.sea_surface_height),
+                           static_cast<double>(sea.water_temperature), static_cast<double>(sea.clarity)});
+    };
+    if (const MaritimeSurfaceControl* sea = surfaces.sea(WeatherScope::kGlobal, 0)) add(1.0, *sea);
+    bool over_global = false;
+    for (const RegionAt& at : regions) {
+        const MaritimeSurfaceControl* sea = surfaces.sea(WeatherScope::kRegional, at.region->region_id);
+        if (sea == nullptr) continue;
+        if (!std::exchange(over_global, true) || !at.region->merge_maritime) blend.cover();
+        add(at.weight, *sea);
+    }
+    blend.cover();
+    return {blend.values()[0], blend.values()[1], blend.values()[2]};
+}
+
+GroundConditions::GroundConditions(const SurfaceStore& surfaces, const RegionsAt& regions) noexcept {
+    const auto enabled = [](const TerrestrialSurfaceControl& condition) { return condition.enable; };
+    bool over_global = false;
+    for (const TerrestrialSurfaceControl& condition : surfaces.conditions(WeatherScope::kGlobal, 0))
+        if (condition.enable) add(condition.condition_id);
+    for (const RegionAt& at : regions) {
+        const auto here = surfaces.conditions(WeatherScope::kRegional, at.region->region_id);
+        if (std::none_of(here.begin(), here.end(), enabled)) continue;
+        if (at.weight >= 1.0 && (!std::exchange(over_global, true) || !at.region->merge_terrestrial))
+            count_ = 0;
+        for (const TerrestrialSurfaceControl& condition : here)
+            if (condition.enable) add(condition.condition_id);
+    }
+    if (count_ == 0) add(0);
+}
+
+void GroundConditions::add(std::uint16_t id) noexcept {
+    if (count_ < kMost && std::find(begin(), end(), id) == end()) ids_[count_++] = id;
+}
+
+}  // namespace skyig::server::world

@@ -1,0 +1,92 @@
+// Weather, sea and ground at one point: the global state, and what layers and regions make of it there.
+//
+// Within one region (or globally) all layers at a point count together: extinctions (1 / visibility) add up,
+// wind is the vector mean, the rest is the mean, each weighed by how far the point is in the layer's
+// transition band. What they leave over is what lies below: regional over global over the base state. Regions
+// count in the order in which they were last sent: one with its merge flag joins those before it, one without
+// covers them, in its perimeter by part.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "protocol/cigi/packets.h"
+#include "server/world/region_geometry.h"
+#include "server/world/state.h"
+#include "server/world/surface_store.h"
+#include "server/world/weather_store.h"
+
+namespace skyig::server::world {
+
+struct RegionAt {
+    const protocol::cigi::EnvRegionControl* region = nullptr;
+    std::uint64_t sent = 0;
+    /// > 0
+    double weight = 0.0;
+};
+
+/// The active regions at a point, in the order in which they were sent.
+class RegionsAt {
+  public:
+    RegionsAt() = default;
+    RegionsAt(const WeatherStore& weather, const GroundPoint& point) noexcept;
+
+    [[nodiscard]] const RegionAt* begin() const noexcept { return regions_.data(); }
+    [[nodiscard]] const RegionAt* end() const noexcept { return regions_.data() + count_; }
+    [[nodiscard]] std::size_t size() const noexcept { return count_; }
+
+  private:
+    std::array<RegionAt, WeatherStore::kMaxRegions> regions_{};
+    std::size_t count_ = 0;
+};
+
+/// 1 from base to top of a layer, falling linearly to 0 over its transition bands. No coverage in it.
+[[nodiscard]] double layer_weight(const protocol::cigi::WeatherControl& layer, double height_m) noexcept;
+
+/// \param base  holds everywhere at every height; bit for bit the result where no layer is
+[[nodiscard]] AirState air_at(const AirState& base, const WeatherStore& weather, const RegionsAt& regions,
+                              double height_m) noexcept;
+
+struct Aerosols {
+    struct Layer {
+        bool present = false;
+        /// g/m3
+        double aerosol_g_m3 = 0.0;
+    };
+    /// By layer id.
+    std::array<Layer, 256> layers{};
+};
+
+[[nodiscard]] Aerosols aerosols_at(const WeatherStore& weather, const RegionsAt& regions,
+                                   double height_m) noexcept;
+
+/// The sea, where nobody has said anything of it.
+struct SeaState {
+    double height_m = 0.0;
+    double temperature_c = 15.0;
+    double clarity_pct = 100.0;
+};
+
+[[nodiscard]] SeaState sea_at(const SurfaceStore& surfaces, const RegionsAt& regions) noexcept;
+
+/// The terrestrial conditions at a point. A region's take the place of the global ones, in its perimeter they
+/// come beside them. Nothing set is condition 0: dry.
+class GroundConditions {
+  public:
+    static constexpr std::size_t kMost = 64;
+
+    GroundConditions(const SurfaceStore& surfaces, const RegionsAt& regions) noexcept;
+
+    [[nodiscard]] const std::uint16_t* begin() const noexcept { return ids_.data(); }
+    [[nodiscard]] const std::uint16_t* end() const noexcept { return ids_.data() + count_; }
+    [[nodiscard]] std::size_t size() const noexcept { return count_; }
+
+  private:
+    void add(std::uint16_t id) noexcept;
+
+    std::array<std::uint16_t, kMost> ids_{};
+    std::size_t count_ = 0;
+};
+
+}  // namespace skyig::server::world
