@@ -129,7 +129,7 @@ TEST(LunarEclipses, ContactsOf2018AreThePublishedOnes) {
     std::printf("2018-07-27: contacts late by");
     for (const double seconds : late) {
         std::printf(" %.1f", seconds);
-        EXPECT_LE(std::abs(seconds), 5.0);
+        EXPECT_LE(std::abs(seconds), 4.0);
     }
     std::printf(" s, magnitudes %.4f %.4f\n", eclipse.umbral_magnitude, eclipse.penumbral_magnitude);
     EXPECT_NEAR(eclipse.umbral_magnitude, 1.6087, 0.002);
