@@ -146,29 +146,39 @@ bool apply(const Range& range, T& value, bool& clamped) noexcept {
     return true;
 }
 
-/// One field: meaning, finiteness, range.
 template <class P, class T>
-void check(P& packet, const Field<P, T>& field, Verdict& verdict) noexcept {
-    T& value = packet.*(field.member);
-    const bool counts = field.counts == nullptr || field.counts(packet);
+bool value_counts(const P& packet, const Field<P, T>& field) noexcept {
+    return field.counts == nullptr || field.counts(packet);
+}
+
+/// A NaN or an infinity refuses the packet, or is emptied where it does not count.
+template <class P, class T>
+void check_finite(P& packet, const Field<P, T>& field, Verdict& verdict) noexcept {
     if constexpr (std::is_floating_point_v<T>) {
-        if (!std::isfinite(value)) {
-            if (counts) {
-                verdict = refuse(Count::kNonfinite, field.name);
-                return;
-            }
+        T& value = packet.*(field.member);
+        if (std::isfinite(value)) return;
+        if (value_counts(packet, field)) {
+            verdict = refuse(Count::kNonfinite, field.name);
+        } else {
             value = P{}.*(field.member);
         }
     }
-    if (counts && !apply(field.range, value, verdict.clamped))
+}
+
+template <class P, class T>
+void check_range(P& packet, const Field<P, T>& field, Verdict& verdict) noexcept {
+    if (value_counts(packet, field) && !apply(field.range, packet.*(field.member), verdict.clamped))
         verdict = refuse(Count::kOutOfRange, field.name);
 }
 
-/// Field by field, for a packet in which not all is plain.
+/// Field by field, for a packet in which not all is plain; what is no number at all is told first.
 template <class P>
 void check_fields(P& packet, Version version, Verdict& verdict) noexcept {
     for_each_field<P>([&](const auto& field) {
-        if (verdict.accepted && field.place(version).present) check(packet, field, verdict);
+        if (verdict.accepted && field.place(version).present) check_finite(packet, field, verdict);
+    });
+    for_each_field<P>([&](const auto& field) {
+        if (verdict.accepted && field.place(version).present) check_range(packet, field, verdict);
     });
 }
 

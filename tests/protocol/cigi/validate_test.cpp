@@ -81,6 +81,14 @@ TEST(Validate, NanRefusesThePacketAndNamesTheField) {
     expect_refused(entity, Count::kNonfinite, "alt_z");
 }
 
+TEST(Validate, WhatIsNoNumberIsToldBeforeWhatIsOutOfRange) {
+    EnvRegionControl region = some_region();
+    region.latitude = 95.0;
+    expect_refused(region, Count::kOutOfRange, "latitude");
+    region.rotation = kNan;
+    expect_refused(region, Count::kNonfinite, "rotation");
+}
+
 TEST(Validate, AFieldWhoseEnableBitIsOffIsNotChecked) {
     ViewControl view{.x_enable = true, .x_offset = 1.0F, .y_offset = kNan};
     ASSERT_TRUE(validate(view, Version::k33).accepted);
