@@ -113,7 +113,8 @@ render::Scene SceneBuilder::build(const world::World& world, std::uint64_t frame
     place_eye(world, scene);
     aim_views(world, scene);
     const ephemeris::UtcClockTime& utc = world.clock().utc();
-    instant_ = ephemeris::make_instant(utc, orientation_.at(utc));
+    const ephemeris::KnownOffsets known = offsets_.at(utc);
+    instant_ = ephemeris::make_instant(utc, known, orientation_.at(utc, known));
     const ephemeris::Geodetic eye{scene.eye.latitude_deg, scene.eye.longitude_deg, scene.eye.height_m};
     light(clockwork_.state(instant_, eye), world.celestial(), scene);
     scene.air = air_of(world.air());

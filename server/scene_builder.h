@@ -52,6 +52,7 @@ class SceneBuilder {
     void aim_views(const world::World& world, render::Scene& scene) noexcept;
 
     ephemeris::EarthOrientation orientation_;
+    ephemeris::OffsetsOfDay offsets_;
     ephemeris::SkyClockwork clockwork_;
     /// Of the frame at hand: east-north-up at the ownship from that at the eye, row by row as the library
     /// fills it.

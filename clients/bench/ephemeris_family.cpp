@@ -6,16 +6,21 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <glm/glm.hpp>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "clients/bench/truth_table.h"
+#include "clients/body_name.h"
+#include "clients/row_time.h"
+#include "server/ephemeris/earth_orientation.h"
 #include "server/ephemeris/places.h"
 #include "server/ephemeris/sky_clockwork.h"
 #include "server/ephemeris/sky_state.h"
@@ -60,35 +65,25 @@ glm::dvec3 unit_vector(double longitude_deg, double latitude_deg) {
             std::cos(latitude_rad) * std::sin(longitude_rad), std::sin(latitude_rad)};
 }
 
-Body body_of(std::string_view name) {
-    for (const Body body : kBodies) {
-        if (name_of(body) == name) return body;
-    }
-    throw std::runtime_error(fmt::format("ephemeris truth: there is no body '{}'", name));
+/// Throws std::runtime_error when the field is none.
+Body body_in(const TruthTable& table, std::size_t row) {
+    const std::string& text = table.text(row, "body");
+    if (const std::optional<Body> body = parse_body(text)) return *body;
+    throw std::runtime_error(fmt::format("ephemeris truth: there is no body '{}'", text));
 }
 
-/// The tables give TT and UT1 as 0h of the UTC day plus the time of day plus an offset.
-Instant instant_of(const std::string& utc, double tt_minus_utc_s, double ut1_minus_utc_s) {
-    constexpr std::size_t kDateLength = 10;
-    const auto day = parse_utc(utc.substr(0, kDateLength) + "T00:00:00Z");
-    int hour = 0;
-    int minute = 0;
-    double second = 0.0;
-    if (!day || utc.size() < kDateLength + 1 ||
-        std::sscanf(utc.c_str() + kDateLength + 1, "%d:%d:%lf", &hour, &minute, &second) != 3)
-        throw std::runtime_error(fmt::format("ephemeris truth: '{}' is no UTC", utc));
-    const double of_day_s = 3600.0 * hour + 60.0 * minute + second;
-    Instant instant;
-    instant.tt = {kMjdOrigin_jd + day->mjd(), (of_day_s + tt_minus_utc_s) / kSecondsPerDay};
-    instant.ut1 = {kMjdOrigin_jd + day->mjd(), (of_day_s + ut1_minus_utc_s) / kSecondsPerDay};
-    return instant;
+Instant instant_in(const TruthTable& table, std::size_t row, const char* column, TimeForm form,
+                   const RowOffsets& offsets = {}) {
+    const std::string& text = table.text(row, column);
+    if (const std::optional<Instant> instant = parse_row_time(text, form, offsets)) return *instant;
+    throw std::runtime_error(fmt::format("ephemeris truth: {} '{}' is no time", column, text));
 }
 
 void add_geocentric(std::vector<Case>& cases, const TruthTable& table) {
     for (std::size_t row = 0; row < table.rows(); ++row) {
         Case asked;
-        asked.body = body_of(table.text(row, "body"));
-        asked.instant.tt = {table.number(row, "jd_tt"), 0.0};
+        asked.body = body_in(table, row);
+        asked.instant = instant_in(table, row, "jd_tt", TimeForm::kTtJulianDate);
         asked.truth = unit_vector(table.number(row, "ra_app_deg"), table.number(row, "dec_app_deg"));
         cases.push_back(asked);
     }
@@ -98,9 +93,10 @@ void add_topocentric(std::vector<Case>& cases, const TruthTable& table) {
     for (std::size_t row = 0; row < table.rows(); ++row) {
         Case asked;
         asked.topocentric = true;
-        asked.body = body_of(table.text(row, "body"));
-        asked.instant = instant_of(table.text(row, "utc"), table.number(row, "tt_minus_utc_s"),
-                                   table.number(row, "ut1_minus_utc_s"));
+        asked.body = body_in(table, row);
+        asked.instant = instant_in(table, row, "utc", TimeForm::kUtc,
+                                   {.tt_minus_utc_s = table.number(row, "tt_minus_utc_s"),
+                                    .ut1_minus_utc_s = table.number(row, "ut1_minus_utc_s")});
         asked.eye = {table.number(row, "lat_deg"), table.number(row, "lon_deg"), table.number(row, "h_m")};
         // Azimuth runs from north through east.
         asked.truth = unit_vector(90.0 - table.number(row, "az_deg"), table.number(row, "el_deg"));
@@ -138,37 +134,39 @@ std::vector<ErrorEntry> errors_of(const std::vector<Case>& cases, Model model) {
 
 constexpr std::size_t kInstants = 256;
 
-/// Random instants of 1900-2100 with their eyes.
+/// What a picture is asked for: the clock's UTC and the eye. `instants` for who is asked for theories alone.
 struct Frames {
+    std::array<UtcClockTime, kInstants> utcs;
     std::array<Instant, kInstants> instants;
     std::array<Geodetic, kInstants> eyes;
 };
 
+/// Random times of 1900-2100.
 std::shared_ptr<const Frames> random_frames() {
-    constexpr double kFirstDay_mjd = 15020.0;
+    constexpr double kFirstDay_unix = -25'567.0;
     constexpr double kDays = 73'400.0;
     std::mt19937 random(1900);
     std::uniform_real_distribution<double> part(0.0, 1.0);
     auto frames = std::make_shared<Frames>();
     for (std::size_t i = 0; i < kInstants; ++i) {
-        const double day = kMjdOrigin_jd + kFirstDay_mjd + std::floor(kDays * part(random));
-        const double fraction = part(random);
-        frames->instants[i].tt = {day, fraction};
-        frames->instants[i].ut1 = {day, fraction - 60.0 / kSecondsPerDay};
+        const double days = kFirstDay_unix + kDays * part(random);
+        frames->utcs[i] = UtcClockTime::from_unix(static_cast<std::int64_t>(days * kSecondsPerDay));
+        frames->utcs[i].advance(part(random));
+        frames->instants[i] = make_instant(frames->utcs[i]);
         frames->eyes[i] = {180.0 * part(random) - 90.0, 360.0 * part(random) - 180.0,
                            12'000.0 * part(random)};
     }
     return frames;
 }
 
-/// Four seconds of frames at 60 Hz from the start of a day of TT, all within one interval of knots, above an
-/// aircraft that moves on.
+/// Four seconds of frames at 60 Hz, all within one interval of knots, above an aircraft that moves on.
 std::shared_ptr<const Frames> steady_frames() {
     auto frames = std::make_shared<Frames>();
     for (std::size_t i = 0; i < kInstants; ++i) {
-        const double time_s = 1.0 + static_cast<double>(i) / 60.0;
-        frames->instants[i].tt = {2461041.5, time_s / kSecondsPerDay};
-        frames->instants[i].ut1 = {2461041.5, (time_s - 69.2) / kSecondsPerDay};
+        const double time_s = static_cast<double>(i) / 60.0;
+        frames->utcs[i] = parse_utc("2024-01-01T00:00:00Z").value();
+        frames->utcs[i].advance(time_s);
+        frames->instants[i] = make_instant(frames->utcs[i]);
         frames->eyes[i] = {64.0 + 2e-3 * time_s, -22.0, 11'000.0};
     }
     return frames;
@@ -196,10 +194,30 @@ double sum_of(const SkyState& state) {
     return sum;
 }
 
+/// As many days of Earth orientation as the IERS has published since 1973, smooth ones.
+EarthOrientation measured_days() {
+    constexpr int kDays = 19'000;
+    constexpr double kFirst_mjd = 41'684.0;
+    std::vector<EarthOrientationRow> rows;
+    for (int day = 0; day < kDays; ++day) {
+        const double mjd = kFirst_mjd + day;
+        rows.push_back({.mjd = mjd,
+                        .ut1_minus_utc_s = 0.3 * std::sin(0.001 * mjd),
+                        .x_arcsec = 0.2 * std::cos(0.0145 * mjd),
+                        .y_arcsec = 0.3});
+    }
+    return EarthOrientation(rows);
+}
+
+/// What the daemon does once a picture: time scales, Earth orientation, state.
 Work state_work(Model model, std::shared_ptr<const Frames> frames) {
-    return repeat([frames = std::move(frames), clockwork = SkyClockwork(model)](std::uint64_t i) mutable {
+    return repeat([frames = std::move(frames), orientation = measured_days(), offsets = OffsetsOfDay(),
+                   clockwork = SkyClockwork(model)](std::uint64_t i) mutable {
         const std::size_t frame = i % kInstants;
-        return sum_of(clockwork.state(frames->instants[frame], frames->eyes[frame]));
+        const UtcClockTime& utc = frames->utcs[frame];
+        const KnownOffsets known = offsets.at(utc);
+        const Instant instant = make_instant(utc, known, orientation.at(utc, known));
+        return sum_of(clockwork.state(instant, frames->eyes[frame]));
     });
 }
 
@@ -278,8 +296,10 @@ Report measure_ephemeris_errors(const std::filesystem::path& truth) {
         "2006/2000A, "
         "0.001 arcsec class";
     report.costs =
-        "`frame` is a picture's whole state in steady state: all bodies, the star matrix, another time and "
-        "place each time, between two knots. `jump` is the same at a time unlike the one before: the two "
+        "`frame` is a picture's whole state in steady state, from the clock's UTC through half a century of "
+        "daily Earth orientation to all bodies and the star matrix, another time and place each time, "
+        "between "
+        "two knots. `jump` is the same at a time unlike the one before: the two "
         "knots "
         "around it are evaluated anew. A body's name stands for its theory alone, position and velocity; the "
         "Sun's gives the Earth's motion for all bodies.";
@@ -287,7 +307,7 @@ Report measure_ephemeris_errors(const std::filesystem::path& truth) {
         "a sky that only turns: three angles from memory, the matrix of their rotations, seven vectors "
         "turned "
         "by it";
-    report.headline = {"all bodies", kWhole, "jump"};
+    report.headline = {"all bodies", kWhole, "frame", "jump"};
     Plot theories{"theories", "Theories", kWhole, {}};
     for (const std::string_view body : kBodyNames)
         theories.series.push_back({std::string(body), std::string(body), std::string(body)});

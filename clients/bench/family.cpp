@@ -49,6 +49,21 @@ std::optional<double> instructions_of(std::span<const InstructionCount> counts, 
     return found->instructions;
 }
 
+/// A count of this family that belongs to none of its works, or of no family, is a misspelt one.
+void require_known(std::span<const InstructionCount> counts, const Family& family,
+                   std::span<const Contender> contenders) {
+    for (const InstructionCount& count : counts) {
+        if (!find_family(count.family))
+            throw std::runtime_error(fmt::format("instructions: there is no family '{}'", count.family));
+        const auto counted = [&count](const Contender& contender) {
+            return contender.model == count.model && contender.cost == count.cost;
+        };
+        if (count.family == family.name && std::none_of(contenders.begin(), contenders.end(), counted))
+            throw std::runtime_error(fmt::format("instructions: {} has no model '{}' with a cost '{}'",
+                                                 family.name, count.model, count.cost));
+    }
+}
+
 std::optional<InstructionCount> read_count(std::string_view line) {
     std::array<std::string_view, 4> fields;
     for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -94,8 +109,9 @@ std::vector<InstructionCount> read_instruction_counts(std::string_view text) {
 
 Report measure(const Family& family, const std::filesystem::path& truth, const server::Clock& clock,
                const TimingOptions& options, std::span<const InstructionCount> instructions) {
-    Report report = family.measure_errors(truth);
     const std::vector<Contender> contenders = family.contenders();
+    require_known(instructions, family, contenders);
+    Report report = family.measure_errors(truth);
     const PairedTimings timings = measure_paired(clock, family.floor(), contenders, options);
     report.floor_ns = timings.floor_ns;
     report.rounds = options.rounds;

@@ -44,7 +44,8 @@ struct InstructionCount {
 /// number of the bad line.
 [[nodiscard]] std::vector<InstructionCount> read_instruction_counts(std::string_view text);
 
-/// Errors and costs of every model, all costs from one paired run.
+/// Errors and costs of every model, all costs from one paired run. Throws std::runtime_error for a truth
+/// table that is missing and for a count of something that there is not (other families may be counted too).
 [[nodiscard]] Report measure(const Family& family, const std::filesystem::path& truth,
                              const server::Clock& clock, const TimingOptions& options,
                              std::span<const InstructionCount> instructions);

@@ -51,11 +51,13 @@ struct Plot {
     std::vector<PlotSeries> series;
 };
 
-/// The one error and the one cost that stand for a model in the table over all families.
+/// The one error and the one cost that stand for a model in the table over all families; beside it what a
+/// call costs at worst, empty where all calls are alike.
 struct Headline {
     std::string quantity;
     std::string cases;
     std::string cost;
+    std::string worst_cost = {};
 };
 
 struct Report {

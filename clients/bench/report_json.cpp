@@ -121,7 +121,8 @@ Report report_of(const Json& node) {
     for (const Json& plot : node.at("plots"))
         report.plots.push_back(plot_of(plot));
     const Json& headline = node.at("headline");
-    report.headline = {text_of(headline, "quantity"), text_of(headline, "cases"), text_of(headline, "cost")};
+    report.headline = {text_of(headline, "quantity"), text_of(headline, "cases"), text_of(headline, "cost"),
+                       headline.contains("worst_cost") ? text_of(headline, "worst_cost") : ""};
     return report;
 }
 
@@ -148,6 +149,7 @@ std::string to_json(const Report& report) {
     node["headline"] = {{"quantity", report.headline.quantity},
                         {"cases", report.headline.cases},
                         {"cost", report.headline.cost}};
+    if (!report.headline.worst_cost.empty()) node["headline"]["worst_cost"] = report.headline.worst_cost;
     return node.dump(1) + '\n';
 }
 

@@ -3,48 +3,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
+#include <utility>
+
+#include "clients/csv.h"
 
 namespace skyig::clients::bench {
-
-namespace {
-
-std::vector<std::string> split(std::string_view line) {
-    std::vector<std::string> fields(1);
-    for (const char c : line) {
-        if (c == ',') {
-            fields.emplace_back();
-        } else {
-            fields.back().push_back(c);
-        }
-    }
-    return fields;
-}
-
-}  // namespace
 
 TruthTable::TruthTable(const std::filesystem::path& path) : name_(path.string()) {
     std::ifstream file(path);
     if (!file)
         throw std::runtime_error(
             fmt::format("{}: cannot be read; --truth names the folder of the truth tables", name_));
-    int number = 0;
-    for (std::string line; std::getline(file, line);) {
-        ++number;
-        if (line.ends_with('\r')) line.pop_back();
-        if (line.empty() || line.front() == '#') continue;
-        std::vector<std::string> fields = split(line);
+    CsvReader reader(file);
+    const auto refuse = [&](std::size_t line, const std::string& what) {
+        throw std::runtime_error(fmt::format("{}:{}: {}", name_, line, what));
+    };
+    while (std::optional<CsvRecord> record = reader.next()) {
+        if (record->too_long || !record->well_formed)
+            refuse(record->line, "the line is too long or a quote in it is not closed");
         if (heading_.empty()) {
-            heading_ = std::move(fields);
+            heading_ = std::move(record->fields);
             continue;
         }
-        if (fields.size() != heading_.size())
-            throw std::runtime_error(fmt::format("{}:{}: {} fields, the heading has {}", name_, number,
-                                                 fields.size(), heading_.size()));
-        rows_.push_back(std::move(fields));
+        if (record->fields.size() != heading_.size())
+            refuse(record->line,
+                   fmt::format("{} fields, the heading has {}", record->fields.size(), heading_.size()));
+        rows_.push_back(std::move(record->fields));
     }
+    if (reader.failed()) refuse(reader.line() + 1, "cannot be read");
 }
 
 const std::string& TruthTable::text(std::size_t row, std::string_view column) const {
@@ -56,13 +45,11 @@ const std::string& TruthTable::text(std::size_t row, std::string_view column) co
 
 double TruthTable::number(std::size_t row, std::string_view column) const {
     const std::string& field = text(row, column);
-    double value = 0.0;
-    const char* end = field.data() + field.size();
-    const auto [rest, error] = std::from_chars(field.data(), end, value);
-    if (error != std::errc() || rest != end)
+    const std::optional<double> value = parse_number(field);
+    if (!value)
         throw std::runtime_error(
             fmt::format("{}: row {}: {} '{}' is not a number", name_, row + 1, column, field));
-    return value;
+    return *value;
 }
 
 }  // namespace skyig::clients::bench

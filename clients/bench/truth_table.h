@@ -1,4 +1,4 @@
-// Tables of truth as text: commas, one heading line, '#' lines skipped, no quotes.
+// Tables of truth as text, clients/csv.h with one heading line.
 #pragma once
 
 #include <cstddef>

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "clients/body_name.h"
 #include "clients/skyig/decode_command.h"
 #include "clients/skyig/ephem/almanac.h"
-#include "clients/skyig/ephem/body_name.h"
 #include "clients/skyig/ephem/star_name.h"
 #include "clients/skyig/options.h"
 #include "protocol/transport/endpoint.h"
@@ -155,10 +155,25 @@ void add_bench(CLI::App& app, BenchOptions& options) {
     app.add_flag("--json", options.json, "tell the results as JSON");
 }
 
+CLI::Validator known_utc() {
+    const auto check = [](std::string& text) -> std::string {
+        const auto utc = server::ephemeris::parse_utc(text);
+        if (utc && server::ephemeris::make_instant(*utc).clamped)
+            return fmt::format("'{}' is outside the years 1900..2100 that are known", text);
+        return check_utc(text);
+    };
+    return {check, "UTC"};
+}
+
+CLI::Validator not_empty() {
+    return {[](std::string& text) { return text.empty() ? std::string("a name is missing") : std::string(); },
+            "NAME"};
+}
+
 CLI::Validator known_body() {
     const auto check = [](std::string& text) -> std::string {
-        if (ephem::parse_body(text)) return {};
-        return fmt::format("'{}' is none of {}", text, ephem::body_list());
+        if (parse_body(text)) return {};
+        return fmt::format("'{}' is none of {}", text, body_list());
     };
     return {check, "BODY"};
 }
@@ -182,10 +197,13 @@ CLI::Validator known_span() {
 
 constexpr const char* kEphemFooter =
     R"(Tables (--batch) need a column of time: utc or date_ut (UTC, before 1971 UT1), jd_tt (Julian date in TT;
-seen from the Earth's centre) or td_iso (TT). Columns body, lat_deg, lon_deg and h_m (0 if missing) say
-what is seen from where: without body it is --body or the Moon, without a place --lat --lon --alt or the
-Earth's centre. tt_minus_utc_s (tt_minus_ut_s), ut1_minus_utc_s (ut1_minus_ut_s) and, with td_iso,
-delta_t_s (catalog_delta_t_s) come before the built-in tables. Lines with # are left out. Every row keeps
+seen from the Earth's centre) or td_iso (TT). Of several the first in this order is read and the others are
+not, also in rows that leave it empty (those are bad); --time-column names another. Columns body, lat_deg,
+lon_deg and h_m say what is seen from where, and where they are --body, --lat, --lon and --alt are not used:
+without body it is --body (one) or the Moon, without a place --lat --lon --alt or the Earth's centre, without
+h_m height 0. An empty field in one of them makes a bad row. tt_minus_utc_s (tt_minus_ut_s), ut1_minus_utc_s
+(ut1_minus_ut_s) and, with td_iso, delta_t_s (catalog_delta_t_s) come before the built-in tables, which hold
+where they are empty. Headings may be in capitals, lines with # are left out. Every row keeps
 its columns and gets skyig_*: right ascension and declination are apparent, of the true equator and equinox of
 date; elevations airless and refracted; the bright limb counts from the north of date through east; the
 Moon's sub-Earth and sub-solar points are for the eye (or the Earth's centre); its axis angle counts from the
@@ -196,7 +214,7 @@ degrees; contacts of eclipses to a second, for mean limbs.)";
 
 void add_ephem(CLI::App& app, EphemOptions& options, std::string& horizon) {
     CLI::Option* utc = app.add_option("--utc", options.utc, "UTC, as 2026-06-21T19:30:00Z (now)")
-                           ->check(utc_time())
+                           ->check(known_utc())
                            ->type_name("TIME");
     CLI::Option* latitude = app.add_option("--lat", options.latitude_deg, "latitude, degrees north")
                                 ->check(finite_in(-90.0, 90.0));
@@ -223,13 +241,17 @@ void add_ephem(CLI::App& app, EphemOptions& options, std::string& horizon) {
         ->check(finite_in(-100.0, 70.0));
     CLI::Option* batch =
         app.add_option("--batch", options.batch_path, "add columns to this table (CSV; - is standard input)")
+            ->check(not_empty())
             ->type_name("IN.csv")
             ->excludes(utc)
             ->excludes(star);
     app.add_option("-o,--out", options.out_path, "where the table goes (standard output)")
+        ->check(not_empty())
         ->type_name("OUT.csv")
         ->needs(batch);
-    app.add_option("--time-column", options.time_column, "the table's column of UTC times")
+    app.add_option("--time-column", options.time_column,
+                   "the table's column of times: one of the usual, or of UTC")
+        ->check(not_empty())
         ->type_name("NAME")
         ->needs(batch);
     CLI::Option* events =
@@ -339,8 +361,14 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
                verbs.record);
 }
 
+void require_one_body(const EphemOptions& options) {
+    if (!options.batch_path.empty() && options.bodies.size() > 1)
+        throw CLI::ValidationError("--body", "a table takes one body (or none, and a column 'body')");
+}
+
 void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     verbs.host.big_endian = verbs.order == "big";
+    require_one_body(verbs.ephem);
     verbs.ephem.eye_horizon = verbs.horizon == "eye";
     if (app.got_subcommand("host")) invocation.options = verbs.host;
     if (app.got_subcommand("shot")) invocation.options = verbs.shot;
@@ -349,6 +377,13 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     if (app.got_subcommand("decode")) invocation.options = verbs.decode;
     if (app.got_subcommand("replay")) invocation.options = verbs.replay;
     if (app.got_subcommand("record")) invocation.options = verbs.record;
+}
+
+std::string usage_error(const char* what, const char* verb) {
+    const std::string_view known =
+        std::find(kVerbs.begin(), kVerbs.end(), std::string_view(verb)) != kVerbs.end() ? verb : "";
+    return known.empty() ? fmt::format("skyig: {} (skyig --help tells the verbs)\n", what)
+                         : fmt::format("skyig {0}: {1} (skyig {0} --help tells the options)\n", known, what);
 }
 
 }  // namespace
@@ -379,7 +414,7 @@ Invocation read_command_line(int argc, const char* const* argv) {
         invocation.output = fmt::format("{}\n", version.what());
     } catch (const CLI::ParseError& error) {
         invocation.exit_status = 2;
-        invocation.error = fmt::format("skyig: {} (skyig --help tells the verbs)\n", error.what());
+        invocation.error = usage_error(error.what(), argc > 1 ? argv[1] : "");
     }
     return invocation;
 }

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "clients/body_name.h"
 #include "clients/skyig/ephem/almanac.h"
 #include "clients/skyig/ephem/batch.h"
-#include "clients/skyig/ephem/body_name.h"
 #include "clients/skyig/ephem/report.h"
 #include "render/sky/refraction.h"
 #include "server/clock.h"
@@ -25,6 +25,11 @@ using namespace server::ephemeris;
 namespace {
 
 constexpr std::string_view kStandardStream = "-";
+
+/// Leaves with status 2.
+struct WrongUsage : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
 
 std::optional<Geodetic> site_of(const EphemOptions& options) {
     if (!options.latitude_deg || !options.longitude_deg) return std::nullopt;
@@ -50,24 +55,34 @@ UtcClockTime utc_of(const EphemOptions& options) {
 template <std::size_t count>
 std::vector<Body> bodies_of(const EphemOptions& options, const std::array<Body, count>& otherwise) {
     std::vector<Body> bodies;
-    for (const std::string& name : options.bodies)
-        bodies.push_back(*ephem::parse_body(name));
+    for (const std::string& name : options.bodies) {
+        const Body body = *parse_body(name);
+        if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) bodies.push_back(body);
+    }
     if (bodies.empty()) bodies.assign(otherwise.begin(), otherwise.end());
     return bodies;
 }
 
+std::vector<ephem::NamedStar> stars_of(const EphemOptions& options) {
+    std::vector<ephem::NamedStar> stars;
+    for (const std::string& text : options.stars) {
+        const ephem::NamedStar star = *ephem::parse_star(text);
+        const auto same = [&star](const ephem::NamedStar& other) { return other.hr == star.hr; };
+        if (std::none_of(stars.begin(), stars.end(), same)) stars.push_back(star);
+    }
+    return stars;
+}
+
 int report(const EphemOptions& options) {
-    ephem::ReportRequest request{.utc = utc_of(options),
-                                 .site = site_of(options),
-                                 .bodies = bodies_of(options, kBodies),
-                                 .stars = {},
-                                 .model = model_of(options),
-                                 .air = air_of(options)};
-    for (const std::string& star : options.stars)
-        request.stars.push_back(*ephem::parse_star(star));
+    const ephem::ReportRequest request{.utc = utc_of(options),
+                                       .site = site_of(options),
+                                       .bodies = bodies_of(options, kBodies),
+                                       .stars = stars_of(options),
+                                       .model = model_of(options),
+                                       .air = air_of(options)};
     if (make_instant(request.utc).clamped)
-        throw std::runtime_error(
-            fmt::format("--utc: {} is outside the years 1900..2100 that are known", to_iso(request.utc)));
+        throw std::runtime_error(fmt::format("the clock's {} is outside the years 1900..2100 that are known",
+                                             to_iso(request.utc)));
     const ephem::Report made = ephem::make_report(request);
     fmt::print("{}", options.json ? to_json(made) : to_text(made));
     return 0;
@@ -89,12 +104,10 @@ int almanac(const EphemOptions& options) {
 }
 
 ephem::BatchSettings batch_settings(const EphemOptions& options) {
-    if (options.bodies.size() > 1)
-        throw std::runtime_error("--body: a table takes one body (or none, and a column 'body')");
     ephem::BatchSettings settings;
     settings.input_name = options.batch_path == kStandardStream ? "standard input" : options.batch_path;
     settings.time_column = options.time_column;
-    if (!options.bodies.empty()) settings.body = ephem::parse_body(options.bodies.front());
+    if (!options.bodies.empty()) settings.body = parse_body(options.bodies.front());
     settings.site = site_of(options);
     settings.model = model_of(options);
     settings.air = air_of(options);
@@ -104,7 +117,7 @@ ephem::BatchSettings batch_settings(const EphemOptions& options) {
 void require_two_files(const EphemOptions& options) {
     std::error_code none;
     if (std::filesystem::equivalent(options.batch_path, options.out_path, none))
-        throw std::runtime_error("--out is the table that is read; name another file");
+        throw WrongUsage("--out is the table that is read; name another file");
 }
 
 int batch(const EphemOptions& options) {
@@ -112,19 +125,22 @@ int batch(const EphemOptions& options) {
     std::ifstream input_file;
     if (options.batch_path != kStandardStream) {
         input_file.open(options.batch_path);
-        if (!input_file || std::filesystem::is_directory(options.batch_path))
-            throw std::runtime_error(fmt::format("{}: cannot be read", options.batch_path));
+        if (!input_file) throw std::runtime_error(fmt::format("{}: cannot be read", options.batch_path));
     }
     std::ofstream output_file;
     const bool to_file = !options.out_path.empty() && options.out_path != kStandardStream;
-    if (to_file) {
-        require_two_files(options);
-        output_file.open(options.out_path, std::ios::binary);
-        if (!output_file) throw std::runtime_error(fmt::format("{}: cannot be written", options.out_path));
-    }
+    if (to_file) require_two_files(options);
     std::istream& input = input_file.is_open() ? static_cast<std::istream&>(input_file) : std::cin;
     std::ostream& output = to_file ? static_cast<std::ostream&>(output_file) : std::cout;
-    const ephem::BatchCount count = ephem::run_batch(input, output, std::cerr, settings);
+    const auto open_output = [&]() -> std::ostream& {
+        if (to_file) output_file.open(options.out_path, std::ios::binary);
+        if (!output) throw std::runtime_error(fmt::format("{}: cannot be written", options.out_path));
+        return output;
+    };
+    const ephem::BatchCount count = ephem::run_batch(input, open_output, std::cerr, settings);
+    // An error of C's stream looks to std::cin like the end.
+    if (!input_file.is_open() && std::ferror(stdin) != 0)
+        throw std::runtime_error(fmt::format("{}: cannot be read", settings.input_name));
     output.flush();
     if (!output)
         throw std::runtime_error(
@@ -139,6 +155,9 @@ int run_ephem(const EphemOptions& options) {
     try {
         if (!options.batch_path.empty()) return batch(options);
         return options.events.empty() ? report(options) : almanac(options);
+    } catch (const WrongUsage& error) {
+        fmt::print(stderr, "skyig ephem: {}\n", error.what());
+        return 2;
     } catch (const std::exception& error) {
         fmt::print(stderr, "skyig ephem: {}\n", error.what());
         return 1;

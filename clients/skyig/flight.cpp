@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <utility>
+
+#include "clients/csv.h"
 
 namespace skyig::clients {
 
@@ -32,30 +33,13 @@ constexpr std::array<Column, 7> kColumns{{
     {"roll_deg", "roll_deg", &FlightPoint::roll_deg, -360.0, 360.0},
 }};
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlank = " \t\r";
-    const std::size_t first = text.find_first_not_of(kBlank);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-void split(std::string_view line, std::vector<std::string_view>& fields) {
-    fields.clear();
-    for (;;) {
-        const std::size_t comma = line.find(',');
-        fields.push_back(trimmed(line.substr(0, comma)));
-        if (comma == std::string_view::npos) return;
-        line.remove_prefix(comma + 1);
-    }
-}
-
 /// Where each of kColumns stands in the file's rows.
 struct Header {
     std::array<std::size_t, kColumns.size()> field{};
     std::size_t field_count = 0;
 };
 
-std::optional<Header> read_header(const std::vector<std::string_view>& names, std::string& what) {
+std::optional<Header> read_header(const std::vector<std::string>& names, std::string& what) {
     Header header;
     header.field_count = names.size();
     for (std::size_t i = 0; i < kColumns.size(); ++i) {
@@ -71,7 +55,7 @@ std::optional<Header> read_header(const std::vector<std::string_view>& names, st
     return header;
 }
 
-std::optional<FlightPoint> read_row(const std::vector<std::string_view>& fields, const Header& header,
+std::optional<FlightPoint> read_row(const std::vector<std::string>& fields, const Header& header,
                                     std::string& what) {
     if (fields.size() != header.field_count) {
         what = fmt::format("{} fields where the header has {}", fields.size(), header.field_count);
@@ -81,18 +65,17 @@ std::optional<FlightPoint> read_row(const std::vector<std::string_view>& fields,
     for (std::size_t i = 0; i < kColumns.size(); ++i) {
         const Column& column = kColumns[i];
         const std::string_view text = fields[header.field[i]];
-        double value = 0.0;
-        const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (status != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
+        const std::optional<double> value = parse_number(text);
+        if (!value) {
             what = fmt::format("{} is '{}', which is no number", column.name, text);
             return std::nullopt;
         }
-        if (value < column.lowest || value > column.highest) {
+        if (*value < column.lowest || *value > column.highest) {
             what = fmt::format("{} is {}, outside {:g} to {:g}", column.name, text, column.lowest,
                                column.highest);
             return std::nullopt;
         }
-        point.*column.member = value;
+        point.*column.member = *value;
     }
     return point;
 }
@@ -135,27 +118,25 @@ FlightPoint Flight::at(double time_s) const noexcept {
 }
 
 std::optional<Flight> read_flight(std::istream& text, std::string_view name, std::string& error) {
-    std::string line;
+    CsvReader reader(text);
     std::string what;
-    std::vector<std::string_view> fields;
     std::optional<Header> header;
     std::vector<FlightPoint> points;
-    std::size_t line_number = 0;
     const auto refuse = [&] {
-        error = fmt::format("{}:{}: {}", name, line_number, what);
+        error = fmt::format("{}:{}: {}", name, reader.line(), what);
         return std::nullopt;
     };
-    while (std::getline(text, line)) {
-        ++line_number;
-        const std::string_view content = trimmed(line);
-        if (content.empty() || content.front() == '#') continue;
-        split(content, fields);
+    while (const std::optional<CsvRecord> record = reader.next()) {
+        if (record->too_long || !record->well_formed) {
+            what = "the line is too long or a quote in it is not closed";
+            return refuse();
+        }
         if (!header) {
-            header = read_header(fields, what);
+            header = read_header(record->fields, what);
             if (!header) return refuse();
             continue;
         }
-        const std::optional<FlightPoint> point = read_row(fields, *header, what);
+        const std::optional<FlightPoint> point = read_row(record->fields, *header, what);
         if (!point) return refuse();
         if (!points.empty() && point->time_s <= points.back().time_s) {
             what = fmt::format("t_s is {}, not after the {} of the row before", point->time_s,
@@ -163,6 +144,10 @@ std::optional<Flight> read_flight(std::istream& text, std::string_view name, std
             return refuse();
         }
         points.push_back(*point);
+    }
+    if (reader.failed()) {
+        what = "cannot be read any further";
+        return refuse();
     }
     if (points.empty()) {
         what = header ? "no rows under the header" : "no header line and no rows";

@@ -5,16 +5,12 @@
 #include <numbers>
 
 namespace skyig::server::ephemeris {
-namespace {
 
-/// 0 <= angle < 2 pi; what rounding would lift to a whole turn is 0.
 double turn_from_zero(double angle_rad) noexcept {
     constexpr double kTurn = 2.0 * std::numbers::pi;
     const double positive = angle_rad < 0.0 ? angle_rad + kTurn : angle_rad;
     return positive < kTurn ? positive : 0.0;
 }
-
-}  // namespace
 
 double angle_between_rad(const glm::dvec3& a, const glm::dvec3& b) noexcept {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));

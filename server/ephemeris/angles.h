@@ -13,6 +13,10 @@ namespace skyig::server::ephemeris {
 /// three.
 [[nodiscard]] double covered_fraction(double radius, double covering_radius, double separation) noexcept;
 
+/// The same direction within 0 <= angle < 2 pi, of an angle in -2 pi .. 2 pi; what rounding would lift to a
+/// whole turn is 0.
+[[nodiscard]] double turn_from_zero(double angle_rad) noexcept;
+
 struct Equatorial {
     /// 0 <= right ascension < 2 pi; 0 at a pole.
     double right_ascension_rad = 0.0;

@@ -16,6 +16,8 @@ inline constexpr std::array<Body, kBodyCount> kBodies{
 /// Names as they are typed and printed, in the order of Body.
 inline constexpr std::array<std::string_view, kBodyCount> kBodyNames{"sun",  "moon",    "mercury", "venus",
                                                                      "mars", "jupiter", "saturn"};
+/// Kilometres in an astronomical unit (IAU 2012).
+inline constexpr double kKmPerAu = 149597870.7;
 /// Radii that semidiameters are made of, km: nominal Sun, mean Moon, equatorial planets.
 inline constexpr std::array<double, kBodyCount> kBodyRadii_km{695700.0, 1737.4,  2439.7, 6051.8,
                                                               3396.19,  71492.0, 60268.0};

@@ -19,7 +19,7 @@ inline constexpr double kHeldDeltaT_s = 69.184;
 /// Naval Observatory; from 1972 the Earth's seasons are added as the BIH has them in UT2 - UT1. The step to
 /// the held value is taken within 2026. Error against the daily values of JPL Horizons' tables, 1900-2019:
 /// 0.02 s to 1961, then 0.035 s (0.5 arcsec of the Earth's turning), rms 0.013 s. After 2026 nobody knows:
-/// tenths of a second by 2030, tens of seconds by 2100. Cost: 30 ns.
+/// tenths of a second by 2030, tens of seconds by 2100.
 [[nodiscard]] double delta_t_s(double year) noexcept;
 
 }  // namespace skyig::server::ephemeris

@@ -20,8 +20,8 @@ struct EarthFrame {
 /// kAlmanac: IAU 2006 precession (Fukushima-Williams angles) with the four largest terms of nutation. kErfa:
 /// IAU 2000B. kSeries: IAU 2006 precession with the 77 terms of nutation 2000B.
 /// Largest error against the whole IAU 2006/2000A, 1900-2100, of the first and the second matrix: 0.14 and
-/// 0.34 arcsec, 0.003 and 0.008, 0.0011 and 0.0023. Cost: 0.4, 7 and 7 microseconds (IAU 2006/2000A itself:
-/// 70).
+/// 0.34 arcsec, 0.003 and 0.008, 0.0011 and 0.0023. The last two cost a tenth of IAU 2006/2000A
+/// itself.
 [[nodiscard]] EarthFrame earth_frame(const JulianDate& tt, Model model) noexcept;
 
 }  // namespace skyig::server::ephemeris

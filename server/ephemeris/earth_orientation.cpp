@@ -69,9 +69,12 @@ EarthOrientation::Day EarthOrientation::between(double tt_mjd) const noexcept {
 }
 
 TimeOffsets EarthOrientation::at(const UtcClockTime& utc) const noexcept {
+    return days_.empty() ? TimeOffsets{} : at(utc, known_offsets(utc));
+}
+
+TimeOffsets EarthOrientation::at(const UtcClockTime& utc, const KnownOffsets& known) const noexcept {
     TimeOffsets offsets;
     if (days_.empty()) return offsets;
-    const KnownOffsets known = known_offsets(utc);
     const double now = tt_mjd_of(utc, known);
     const double last = days_.back().tt_mjd;
     const double pole_weight = weight_of(now, days_.front().tt_mjd, last);

@@ -21,8 +21,8 @@ struct EarthShadow {
 /// for the flattening (as in the Five Millennium Canon of Lunar Eclipses, Espenak & Meeus 2009).
 /// \param moon_km  Earth to Moon when the light reached the Moon, the Earth where that light passed it
 /// \param sun_km   Earth to Sun then
-/// Error: contacts within 4 s of the published ones, sunlit 0.0001 (tests). Cost: 0.03 microseconds, 5 within
-/// the penumbra.
+/// Error: contacts within 4 s of the published ones, sunlit 0.001 (tests). Within the
+/// penumbra it costs a hundred times what it costs elsewhere.
 [[nodiscard]] EarthShadow earth_shadow(const glm::dvec3& moon_km, const glm::dvec3& sun_km) noexcept;
 
 }  // namespace skyig::server::ephemeris

@@ -9,7 +9,6 @@
 namespace skyig::server::ephemeris {
 
 inline constexpr double kSpeedOfLight_km_s = 299792.458;
-inline constexpr double kKmPerAu = 149597870.7;
 
 /// From the eye now to the body when the light left it; both places geocentric now, the body's velocity
 /// barycentric. The second step leaves 4 m of the Moon's 40 km.

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "server/ephemeris/angles.h"
+#include "server/ephemeris/rotations.h"
 
 namespace skyig::server::ephemeris {
 namespace {
@@ -11,19 +12,6 @@ namespace {
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 /// Inclination of the mean lunar equator to the ecliptic (IAU).
 constexpr double kEquatorInclination_rad = 1.54242 * kRadPerDeg;
-
-/// Rotations of the axes by `angle_rad`.
-glm::dmat3 rotation_about_x(double angle_rad) noexcept {
-    const double s = std::sin(angle_rad);
-    const double c = std::cos(angle_rad);
-    return {1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c};
-}
-
-glm::dmat3 rotation_about_z(double angle_rad) noexcept {
-    const double s = std::sin(angle_rad);
-    const double c = std::cos(angle_rad);
-    return {c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0};
-}
 
 }  // namespace
 

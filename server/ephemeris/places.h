@@ -17,7 +17,7 @@ struct ApparentPlace {
     /// Unit vector; axes are those of the state or the places that it comes from.
     glm::dvec3 direction{0.0, 0.0, 1.0};
     /// Along the light's path.
-    double distance_km = 149597870.7;
+    double distance_km = kKmPerAu;
     double angular_radius_rad = 0.0;
     /// The Sun has phase angle 0, is all lit and has no bright limb (0).
     double phase_angle_rad = 0.0;

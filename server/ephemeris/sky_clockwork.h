@@ -13,10 +13,10 @@ namespace skyig::server::ephemeris {
 /// call. The knots lie on a fixed grid of TT, so that a state depends on its instant and eye alone, never on
 /// what was asked before: the clock may run backwards or jump. Allocates nothing. One object a thread.
 ///
-/// Error added, random instants of 1900-2100: 0.0001 arcsec in directions, 0.3 in phase angles and bright
-/// limbs of planets, 0.0001 in the Moon's sunlit part. Cost within an interval: 0.45 microseconds for all
-/// bodies and the star matrix, whatever the model. After a jump of the clock, series: 140 microseconds, half
-/// of that when time runs on into the next interval.
+/// Error added, random instants of 1900-2100: 0.0001 arcsec in directions, 0.001 in phase angles and bright
+/// limbs of planets, 0.0001 in the Moon's sunlit part. Cost: see docs/accuracy; within an interval the same
+/// whatever the model. After a jump of the clock two knots are evaluated, one when time runs on into the next
+/// interval.
 class SkyClockwork {
   public:
     static constexpr double kKnotSpacing_s = 60.0;

@@ -4,18 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <GeographicLib/Math.hpp>
 #include <numbers>
 
 #include "server/ephemeris/light.h"
 #include "server/ephemeris/magnitude.h"
+#include "server/ephemeris/rotations.h"
+#include "server/ephemeris/site.h"
 #include "server/ephemeris/slow_sky.h"
 
 namespace skyig::server::ephemeris {
 namespace {
 
-constexpr double kEquatorRadius_km = 6378.137;
-constexpr double kFlattening = 1.0 / 298.257223563;
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 /// Turns of the Earth a day of UT1, beyond one (IAU 2000).
 constexpr double kSiderealGain = 0.00273781191135448;
@@ -26,41 +25,6 @@ Geodetic accepted(const Geodetic& eye) noexcept {
     return {.latitude_deg = std::clamp(finite(eye.latitude_deg), -90.0, 90.0),
             .longitude_deg = finite(eye.longitude_deg),
             .height_m = std::clamp(finite(eye.height_m), kMinEyeHeight_m, kMaxEyeHeight_m)};
-}
-
-/// An eye that turns with the Earth: where it is, and the axes it sees.
-struct Site {
-    glm::dvec3 position_itrs_km{0.0};
-    glm::dmat3 enu_from_itrs{1.0};
-};
-
-/// Sines and cosines in degrees are exact at the poles and at 180 degrees, from either side.
-Site site_of(const Geodetic& eye) noexcept {
-    double sin_lat = 0.0;
-    double cos_lat = 1.0;
-    double sin_lon = 0.0;
-    double cos_lon = 1.0;
-    GeographicLib::Math::sincosd(eye.latitude_deg, sin_lat, cos_lat);
-    GeographicLib::Math::sincosd(eye.longitude_deg, sin_lon, cos_lon);
-
-    constexpr double kEccentricity2 = kFlattening * (2.0 - kFlattening);
-    const double normal_km = kEquatorRadius_km / std::sqrt(1.0 - kEccentricity2 * sin_lat * sin_lat);
-    const double height_km = eye.height_m / 1000.0;
-    const double axis_distance_km = (normal_km + height_km) * cos_lat;
-    const double z_km = ((1.0 - kEccentricity2) * normal_km + height_km) * sin_lat;
-
-    const glm::dvec3 east(-sin_lon, cos_lon, 0.0);
-    const glm::dvec3 north(-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat);
-    const glm::dvec3 up(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat);
-    return {.position_itrs_km = {axis_distance_km * cos_lon, axis_distance_km * sin_lon, z_km},
-            .enu_from_itrs = glm::transpose(glm::dmat3(east, north, up))};
-}
-
-/// Rotation of the axes about the third one by `angle_rad`.
-glm::dmat3 rotation_about_z(double angle_rad) noexcept {
-    const double s = std::sin(angle_rad);
-    const double c = std::cos(angle_rad);
-    return {c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0};
 }
 
 /// Earth rotation angle (IAU 2000), within a turn or so; whole days turn the Earth by whole turns and the
@@ -130,21 +94,25 @@ void place_moon(MoonState& moon, const SlowSky& slow, const glm::dvec3& sun_path
     moon.sunlit = slow.shadow.sunlit;
 }
 
-/// Parallax moves a planet by its exact amount, its phase and brightness to first order (0.01 mag from a
-/// hundred thousand kilometres up, nothing from the ground).
+/// Parallax moves a planet and its phase by their exact amounts, its brightness by its distance alone (0.01
+/// mag from a hundred thousand kilometres up, nothing from the ground). Light and place turn together as the
+/// Moon's do.
 PlanetState placed_planet(const SlowPlanet& slow, double radius_km, const Observer& observer) noexcept {
     constexpr double kMagnitudesPerRatio = 2.17147240951626;  // 5 / ln 10
     const glm::dvec3 path_km = slow.path_km - observer.position_km;
     const double range_km = glm::length(path_km);
+    const glm::dvec3 direction = path_km / range_km;
+    const glm::dvec3 apparent = observer.aberration.apparent(direction);
+    const glm::dvec3 to_sun = slow.to_sun + glm::cross(glm::cross(direction, apparent), slow.to_sun);
+    const glm::dvec3 to_sun_enu = glm::normalize(observer.axes_from_gcrs * to_sun);
     PlanetState planet;
-    planet.direction_enu = observer.axes_from_gcrs * observer.aberration.apparent(path_km / range_km);
+    planet.direction_enu = observer.axes_from_gcrs * apparent;
     planet.distance_km = range_km;
     // The sine stands for the angle: 1e-9 of it.
     planet.angular_radius_rad = radius_km / range_km;
-    planet.phase_angle_rad =
-        std::abs(slow.phase_angle_rad - glm::dot(slow.phase_slope_rad_km, observer.position_km));
-    planet.lit_fraction = 0.5 * (1.0 + std::cos(planet.phase_angle_rad));
-    planet.bright_limb_rad = slow.bright_limb_rad;
+    planet.phase_angle_rad = angle_between_rad(-planet.direction_enu, to_sun_enu);
+    planet.lit_fraction = 0.5 * (1.0 - glm::dot(planet.direction_enu, to_sun_enu));
+    planet.bright_limb_rad = position_angle_rad(planet.direction_enu, to_sun_enu, observer.pole);
     const double geocentric_km2 = glm::dot(slow.path_km, slow.path_km);
     planet.magnitude =
         slow.magnitude + 0.5 * kMagnitudesPerRatio * (range_km * range_km / geocentric_km2 - 1.0);

@@ -113,9 +113,8 @@ struct SkyState {
 /// Largest errors against topocentric places from DE441 and IAU 2006/2000A, 1900-2100 (tests/data/ephemeris):
 /// kSeries: Sun 0.012 arcsec, Moon 0.24, planets 0.75 (Mars). kErfa: Sun 0.012, Moon 7, Mercury 1.2, Venus 8,
 /// Mars 20, Jupiter 81, Saturn 95. kAlmanac: Sun 36, Moon 1040, Mercury 41, Venus 84, Mars 260, Jupiter 710,
-/// Saturn 1330. Cost: 50, 37 and 3.5 microseconds.
-/// The eye's speed over ground (0.2 arcsec) is left out. SkyClockwork gives the same for under a
-/// microsecond.
+/// Saturn 1330. Cost: see docs/accuracy.
+/// The eye's speed over ground (0.2 arcsec) is left out. SkyClockwork gives the same for a fraction of it.
 [[nodiscard]] SkyState compute_sky_state(const Instant& instant, const Geodetic& eye,
                                          Model model = Model::kSeries) noexcept;
 

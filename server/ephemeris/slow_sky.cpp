@@ -1,7 +1,6 @@
 #include "server/ephemeris/slow_sky.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "server/ephemeris/angles.h"
 #include "server/ephemeris/earth_frame.h"
@@ -56,8 +55,6 @@ glm::dvec3 heliocentric_before(const theory::PositionVelocity& now, double secon
 struct Vantage {
     glm::dvec3 earth_heliocentric_km;
     glm::dvec3 sun_velocity_km_s;
-    Aberration aberration;
-    glm::dvec3 pole;
     double centuries;
 };
 
@@ -79,15 +76,11 @@ SlowPlanet slow_planet(Body body, const theory::PositionVelocity& now, const Van
     planet.path_km =
         range_km * deflected(direction, planet_from_sun, from.earth_heliocentric_km / earth_range_km,
                              earth_range_km / kKmPerAu);
-    planet.phase_angle_rad = angle_between_rad(direction, planet_from_sun);
-    const glm::dvec3 across = glm::dot(planet_from_sun, direction) * direction - planet_from_sun;
-    const double sine = glm::length(across);
-    if (sine > 0.0) planet.phase_slope_rad_km = across / (sine * range_km);
-    planet.bright_limb_rad =
-        position_angle_rad(from.aberration.apparent(planet.path_km / range_km), across, from.pole);
+    const glm::dvec3 bend = glm::cross(direction, planet.path_km / range_km);
+    planet.to_sun = -planet_from_sun - glm::cross(bend, planet_from_sun);
     PlanetLight light{.sun_distance_au = sun_range_km / kKmPerAu,
                       .distance_au = range_km / kKmPerAu,
-                      .phase_angle_rad = planet.phase_angle_rad};
+                      .phase_angle_rad = angle_between_rad(direction, planet_from_sun)};
     if (body == Body::kSaturn)
         light.ring_inclination_rad = ring_inclination_rad(-direction, -planet_from_sun, from.centuries);
     planet.magnitude = planet_magnitude(body, light);
@@ -101,17 +94,6 @@ EarthShadow shadow_of(const SlowSky& slow) noexcept {
     const glm::dvec3 moon_then_km =
         slow.moon_km - light_time_s * slow.moon_velocity_km_s + 2.0 * light_time_s * slow.earth_velocity_km_s;
     return earth_shadow(moon_then_km, slow.sun_km + 2.0 * light_time_s * slow.earth_velocity_km_s);
-}
-
-/// An angle on the short way round, -pi..pi.
-double mix_angle(double from_rad, double to_rad, double fraction) noexcept {
-    constexpr double kTurn = 2.0 * std::numbers::pi;
-    double change_rad = to_rad - from_rad;
-    if (change_rad > std::numbers::pi) change_rad -= kTurn;
-    if (change_rad < -std::numbers::pi) change_rad += kTurn;
-    const double angle_rad = from_rad + change_rad * fraction;
-    if (angle_rad > std::numbers::pi) return angle_rad - kTurn;
-    return angle_rad < -std::numbers::pi ? angle_rad + kTurn : angle_rad;
 }
 
 }  // namespace
@@ -136,8 +118,6 @@ SlowSky evaluate_slow_sky(const JulianDate& tt, Model model) noexcept {
 
     const Vantage vantage{.earth_heliocentric_km = earth.heliocentric.position_km,
                           .sun_velocity_km_s = slow.sun_velocity_km_s,
-                          .aberration = Aberration(slow.earth_velocity_km_s / kSpeedOfLight_km_s),
-                          .pole = glm::transpose(slow.cirs_from_gcrs)[2],
                           .centuries = ((tt.day - 2451545.0) + tt.fraction) / 36525.0};
     for (std::size_t i = 0; i < kPlanetCount; ++i) {
         const Body body = kBodies[index_of(Body::kMercury) + i];
@@ -166,9 +146,7 @@ SlowSky interpolate(const SlowSky& from, const SlowSky& to, double fraction) noe
         const SlowPlanet& a = from.planets[i];
         const SlowPlanet& b = to.planets[i];
         slow.planets[i] = {.path_km = mix(a.path_km, b.path_km),
-                           .phase_slope_rad_km = mix(a.phase_slope_rad_km, b.phase_slope_rad_km),
-                           .phase_angle_rad = mix(a.phase_angle_rad, b.phase_angle_rad),
-                           .bright_limb_rad = mix_angle(a.bright_limb_rad, b.bright_limb_rad, fraction),
+                           .to_sun = mix(a.to_sun, b.to_sun),
                            .magnitude = mix(a.magnitude, b.magnitude)};
     }
     return slow;

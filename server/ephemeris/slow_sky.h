@@ -16,10 +16,10 @@ namespace skyig::server::ephemeris {
 struct SlowPlanet {
     /// From the Earth now to the planet when the light left it, bent as the Sun's mass bends it.
     glm::dvec3 path_km{1e8, 0.0, 0.0};
-    /// By how much the phase angle falls as the eye moves: towards the bright limb across the line of sight.
-    glm::dvec3 phase_slope_rad_km{0.0};
-    double phase_angle_rad = 0.0;
-    double bright_limb_rad = 0.0;
+    /// From the planet to the Sun when the light left it, turned as the path is bent, so that the angle to
+    /// the path is the phase angle. A unit vector at knots, 1e-9 shorter between them.
+    glm::dvec3 to_sun{-1.0, 0.0, 0.0};
+    /// For the Earth's centre.
     double magnitude = 0.0;
 };
 
@@ -42,7 +42,7 @@ struct SlowSky {
 
 /// The theories of `model` at `tt`.
 /// kAlmanac: earth_almanac, moon_almanac, planet_elements. kErfa: epv00, moon98, plan94. kSeries: epv00,
-/// ELP/MPP02, VSOP87B. Each with its earth_frame(). Cost: 3, 36 and 49 microseconds.
+/// ELP/MPP02, VSOP87B. Each with its earth_frame(). Cost: see docs/accuracy.
 [[nodiscard]] SlowSky evaluate_slow_sky(const JulianDate& tt, Model model = Model::kSeries) noexcept;
 
 /// Linear interpolation, 0 <= fraction <= 1.

@@ -130,6 +130,29 @@ double delta_t_at(std::int32_t mjd, double tt_second) noexcept {
     return delta_t_s(2000.0 + (mjd - kMjdOf2000 + tt_second / kSecondsPerDay) / kDaysPerYear);
 }
 
+/// Before 1972.
+KnownOffsets offsets_by_ut1(const ClampedUtc& moment) noexcept {
+    constexpr double kTtMinusUtcIn1972_s = 10.0 + kTtMinusTai_s;
+    constexpr std::int32_t kRampMjd = kFirstLeapSecondMjd - 365;
+    const double ramp = std::max(0.0, (moment.mjd - kRampMjd + moment.second / kSecondsPerDay) / 365.0);
+    KnownOffsets known;
+    known.ut1_minus_utc_s =
+        ramp * (kTtMinusUtcIn1972_s - delta_t_at(kFirstLeapSecondMjd, kTtMinusUtcIn1972_s));
+    known.tt_minus_utc_s =
+        known.ut1_minus_utc_s + delta_t_at(moment.mjd, moment.second + kTtMinusUtcIn1972_s);
+    return known;
+}
+
+/// From 1972 on.
+KnownOffsets offsets_by_tai(const ClampedUtc& moment, const TaiOffset& offset) noexcept {
+    KnownOffsets known;
+    known.tt_minus_utc_s = offset.tai_minus_utc_s + kTtMinusTai_s;
+    known.ut1_minus_utc_s =
+        known.tt_minus_utc_s - delta_t_at(moment.mjd, moment.second + known.tt_minus_utc_s);
+    known.leap_seconds_assumed = offset.assumed;
+    return known;
+}
+
 bool is_usable(const std::optional<double>& offset_s) noexcept {
     constexpr double kMost_s = 3600.0;
     return offset_s && std::abs(*offset_s) <= kMost_s;
@@ -242,29 +265,30 @@ std::string to_iso(const UtcClockTime& time, int decimals) {
 }
 
 KnownOffsets known_offsets(const UtcClockTime& utc) noexcept {
-    constexpr double kTtMinusUtcIn1972_s = 10.0 + kTtMinusTai_s;
     const ClampedUtc moment = clamped(utc);
-    KnownOffsets known;
-    if (moment.mjd < kFirstLeapSecondMjd) {
-        constexpr std::int32_t kRampMjd = kFirstLeapSecondMjd - 365;
-        const double ramp = std::max(0.0, (moment.mjd - kRampMjd + moment.second / kSecondsPerDay) / 365.0);
-        known.ut1_minus_utc_s =
-            ramp * (kTtMinusUtcIn1972_s - delta_t_at(kFirstLeapSecondMjd, kTtMinusUtcIn1972_s));
-        known.tt_minus_utc_s =
-            known.ut1_minus_utc_s + delta_t_at(moment.mjd, moment.second + kTtMinusUtcIn1972_s);
-        return known;
+    return moment.mjd < kFirstLeapSecondMjd ? offsets_by_ut1(moment)
+                                            : offsets_by_tai(moment, tai_offset(moment.mjd));
+}
+
+KnownOffsets OffsetsOfDay::at(const UtcClockTime& utc) noexcept {
+    const ClampedUtc moment = clamped(utc);
+    if (moment.mjd < kFirstLeapSecondMjd) return offsets_by_ut1(moment);
+    if (moment.mjd != mjd_) {
+        const TaiOffset offset = tai_offset(moment.mjd);
+        mjd_ = moment.mjd;
+        tai_minus_utc_s_ = offset.tai_minus_utc_s;
+        assumed_ = offset.assumed;
     }
-    const TaiOffset offset = tai_offset(moment.mjd);
-    known.tt_minus_utc_s = offset.tai_minus_utc_s + kTtMinusTai_s;
-    known.ut1_minus_utc_s =
-        known.tt_minus_utc_s - delta_t_at(moment.mjd, moment.second + known.tt_minus_utc_s);
-    known.leap_seconds_assumed = offset.assumed;
-    return known;
+    return offsets_by_tai(moment, {tai_minus_utc_s_, assumed_});
 }
 
 Instant make_instant(const UtcClockTime& utc, const TimeOffsets& offsets) noexcept {
+    return make_instant(utc, known_offsets(utc), offsets);
+}
+
+Instant make_instant(const UtcClockTime& utc, const KnownOffsets& known,
+                     const TimeOffsets& offsets) noexcept {
     const ClampedUtc moment = clamped(utc);
-    const KnownOffsets known = known_offsets(utc);
     const double day = kJulianDateOfMjdZero + moment.mjd;
     const double tt_minus_utc_s = given_or(offsets.tt_minus_utc_s, known.tt_minus_utc_s);
     const double ut1_minus_utc_s = given_or(offsets.ut1_minus_utc_s, known.ut1_minus_utc_s);

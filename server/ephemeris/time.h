@@ -116,10 +116,25 @@ struct KnownOffsets {
 /// forwards, through every leap second. Dates beyond 1900..2100 are taken as the nearer end.
 [[nodiscard]] KnownOffsets known_offsets(const UtcClockTime& utc) noexcept;
 
+/// The same, to the bit, for a clock that is asked each frame: what holds for a whole UTC day, its leap
+/// seconds, is looked up when the day changes and kept. One object a thread.
+class OffsetsOfDay {
+  public:
+    [[nodiscard]] KnownOffsets at(const UtcClockTime& utc) noexcept;
+
+  private:
+    /// Of day 0, which lies before leap seconds and is never asked for.
+    std::int32_t mjd_ = 0;
+    double tai_minus_utc_s_ = 0.0;
+    bool assumed_ = false;
+};
+
 /// TT and UT1 of a UTC instant: known_offsets(), where `offsets` does not say otherwise. A leap second,
-/// 23:59:60, is 86400 s after 0h of its day, and the offsets are those of that day. Always finite. Cost: 0.2
-/// microseconds.
+/// 23:59:60, is 86400 s after 0h of its day, and the offsets are those of that day. Always finite.
 [[nodiscard]] Instant make_instant(const UtcClockTime& utc, const TimeOffsets& offsets) noexcept;
+/// The same for who has looked up `known` = known_offsets(utc) already.
+[[nodiscard]] Instant make_instant(const UtcClockTime& utc, const KnownOffsets& known,
+                                   const TimeOffsets& offsets) noexcept;
 [[nodiscard]] Instant make_instant(const UtcClockTime& utc,
                                    std::optional<double> ut1_minus_utc_s = std::nullopt) noexcept;
 

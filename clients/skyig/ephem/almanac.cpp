@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "clients/skyig/ephem/row_time.h"
+#include "clients/row_time.h"
 #include "clients/skyig/ephem/told_event.h"
 
 namespace skyig::clients::ephem {

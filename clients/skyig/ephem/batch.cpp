@@ -8,10 +8,12 @@
 #include <stdexcept>
 #include <vector>
 
-#include "clients/skyig/ephem/body_name.h"
+#include "clients/body_name.h"
+#include "clients/csv.h"
+#include "clients/letters.h"
+#include "clients/row_time.h"
 #include "clients/skyig/ephem/body_place.h"
-#include "clients/skyig/ephem/csv.h"
-#include "clients/skyig/ephem/row_time.h"
+#include "clients/skyig/ephem/told_angle.h"
 #include "render/sky/refraction.h"
 
 namespace skyig::clients::ephem {
@@ -54,10 +56,12 @@ struct Columns {
     ColumnIndex ut1_minus_utc;
     ColumnIndex delta_t;
 
-    /// The first that is there.
+    /// The first that is there, in capitals or not.
     [[nodiscard]] ColumnIndex find(std::initializer_list<std::string_view> wanted) const {
         for (const std::string_view name : wanted) {
-            const auto at = std::find(names.begin(), names.end(), name);
+            const auto at = std::find_if(names.begin(), names.end(), [name](std::string_view there) {
+                return same_letters(there, name);
+            });
             if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
         }
         return std::nullopt;
@@ -69,6 +73,10 @@ void find_time(Columns& columns, const std::string& asked) {
         const ColumnIndex at = columns.find({asked});
         if (!at) throw std::runtime_error(fmt::format("no column '{}' (--time-column)", asked));
         columns.time = *at;
+        const auto* const usual =
+            std::find_if(kTimeColumns.begin(), kTimeColumns.end(),
+                         [&](const TimeColumn& column) { return same_letters(column.name, asked); });
+        if (usual != kTimeColumns.end()) columns.form = usual->form;
         return;
     }
     for (const TimeColumn& column : kTimeColumns) {
@@ -82,7 +90,12 @@ void find_time(Columns& columns, const std::string& asked) {
         "no time column: one has to be called utc, date_ut, jd_tt or td_iso, or be named by --time-column");
 }
 
+std::string too_long_text() {
+    return fmt::format("the line is longer than {} bytes", kMostLineBytes);
+}
+
 Columns read_heading(const CsvRecord& heading, const std::string& asked_time) {
+    if (heading.too_long) throw std::runtime_error(too_long_text());
     if (!heading.well_formed) throw std::runtime_error("a quote in the heading is not closed");
     Columns columns;
     columns.names = heading.fields;
@@ -107,6 +120,7 @@ Columns read_heading(const CsvRecord& heading, const std::string& asked_time) {
 class Row {
   public:
     Row(const Columns& columns, const CsvRecord& record) : columns_(columns), record_(record) {
+        if (record.too_long) throw RowProblem{"", too_long_text()};
         if (!record.well_formed)
             throw RowProblem{"", "a quote is not closed on its line, or text follows it: write \"...\""};
         if (record.fields.size() != columns.names.size())
@@ -180,10 +194,13 @@ class RowWriter {
         const auto add = [&text](double value, int decimals) {
             text += fmt::format(",{:.{}f}", value, decimals);
         };
-        add(place.right_ascension_deg, 9);
+        const auto add_in_circle = [&text](double angle_deg, int decimals) {
+            text += ',' + told_in_circle(angle_deg, decimals);
+        };
+        add_in_circle(place.right_ascension_deg, 9);
         add(place.declination_deg, 9);
         if (place.horizontal && site) {
-            add(place.horizontal->azimuth_deg, 9);
+            add_in_circle(place.horizontal->azimuth_deg, 9);
             add(place.horizontal->elevation_deg, 9);
             add(refracted_deg(place.horizontal->elevation_deg, site->height_m), 9);
         } else {
@@ -194,7 +211,7 @@ class RowWriter {
         add(place.phase_angle_deg, 8);
         add(place.illuminated_fraction, 9);
         if (place.bright_limb_deg) {
-            add(*place.bright_limb_deg, 7);
+            add_in_circle(*place.bright_limb_deg, 7);
         } else {
             text += ',';
         }
@@ -211,10 +228,10 @@ class RowWriter {
             text += ",,,,,";
             return;
         }
-        for (const double angle_deg :
-             {face->subearth_longitude_deg, face->subearth_latitude_deg, face->subsolar_longitude_deg,
-              face->subsolar_latitude_deg, face->axis_position_angle_deg})
+        for (const double angle_deg : {face->subearth_longitude_deg, face->subearth_latitude_deg,
+                                       face->subsolar_longitude_deg, face->subsolar_latitude_deg})
             text += fmt::format(",{:.7f}", angle_deg);
+        text += ',' + told_in_circle(face->axis_position_angle_deg, 7);
     }
 
     [[nodiscard]] double refracted_deg(double elevation_deg, double height_m) const {
@@ -227,12 +244,18 @@ class RowWriter {
     render::sky::Refraction refraction_;
 };
 
+void require_readable(const CsvReader& reader, const std::string& name) {
+    if (reader.failed())
+        throw std::runtime_error(fmt::format("{}:{}: cannot be read", name, reader.line() + 1));
+}
+
 }  // namespace
 
-BatchCount run_batch(std::istream& input, std::ostream& output, std::ostream& errors,
+BatchCount run_batch(std::istream& input, const OpenOutput& open_output, std::ostream& errors,
                      const BatchSettings& settings) {
     CsvReader reader(input);
     const std::optional<CsvRecord> heading = reader.next();
+    require_readable(reader, settings.input_name);
     if (!heading) throw std::runtime_error(settings.input_name + ": no heading line");
     Columns columns;
     try {
@@ -240,6 +263,7 @@ BatchCount run_batch(std::istream& input, std::ostream& output, std::ostream& er
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(fmt::format("{}:{}: {}", settings.input_name, heading->line, error.what()));
     }
+    std::ostream& output = open_output();
     output << heading->text;
     for (const std::string_view name : kBatchColumns)
         output << ',' << name;
@@ -266,6 +290,7 @@ BatchCount run_batch(std::istream& input, std::ostream& output, std::ostream& er
                 output << record->text << RowWriter::empty_columns() << record->line_end;
         }
     }
+    require_readable(reader, settings.input_name);
     return count;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <istream>
 #include <optional>
 #include <ostream>
@@ -37,7 +38,8 @@ inline constexpr std::array<std::string_view, 16> kBatchColumns{"skyig_ra_deg",
 struct BatchSettings {
     /// Before every line that is told of the table.
     std::string input_name;
-    /// A column of UTC times to use in place of the usual ones; empty = the usual ones.
+    /// The column of times: one of the usual ones, or any other of UTC times; empty = the first of the usual
+    /// ones that is there.
     std::string time_column;
     /// For tables without a column `body`; the Moon if not given.
     std::optional<server::ephemeris::Body> body;
@@ -52,10 +54,15 @@ struct BatchCount {
     std::size_t bad_rows = 0;
 };
 
-/// Reads `input`, writes it with kBatchColumns appended to `output`, and tells one line on `errors` for every
-/// row that is bad; such a row's new columns stay empty (a row with a wrong number of fields is left out).
-/// Lines with '#' and empty lines are left out. Throws std::runtime_error when the heading cannot be used.
-BatchCount run_batch(std::istream& input, std::ostream& output, std::ostream& errors,
+/// Called once, when the heading has turned out usable.
+using OpenOutput = std::function<std::ostream&()>;
+
+/// Reads `input`, writes it with kBatchColumns appended to the output, and tells one line on `errors` for
+/// every row that is bad; such a row's new columns stay empty (a row with a wrong number of fields or of more
+/// than kMostLineBytes is left out). Lines with '#' and empty lines are left out. Headings may be in
+/// capitals. Throws std::runtime_error when the heading cannot be used or the input fails, after the rows
+/// before that.
+BatchCount run_batch(std::istream& input, const OpenOutput& open_output, std::ostream& errors,
                      const BatchSettings& settings);
 
 }  // namespace skyig::clients::ephem

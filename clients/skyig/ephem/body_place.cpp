@@ -15,11 +15,6 @@ namespace {
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kArcsecPerRad = 3600.0 * kDegPerRad;
 
-double in_circle_deg(double angle_rad) noexcept {
-    const double angle_deg = angle_rad * kDegPerRad;
-    return angle_deg < 0.0 ? angle_deg + 360.0 : angle_deg;
-}
-
 clients::ephem::MoonFace face_of(const SkyState& state) noexcept {
     const server::ephemeris::MoonFace face = moon_face(state);
     return {.subearth_longitude_deg = face.subearth_longitude_rad * kDegPerRad,
@@ -31,12 +26,17 @@ clients::ephem::MoonFace face_of(const SkyState& state) noexcept {
 
 }  // namespace
 
+double in_circle_deg(double angle_rad) noexcept {
+    const double angle_deg = turn_from_zero(angle_rad) * kDegPerRad;
+    return angle_deg < 360.0 ? angle_deg : 0.0;
+}
+
 BodyPlace place_in(const SkyState& state, Body body, bool from_site) noexcept {
     const ApparentPlace seen = apparent_place(state, body);
     const Equatorial equatorial = equatorial_of_date(state, seen.direction);
     BodyPlace place;
     place.body = body;
-    place.right_ascension_deg = equatorial.right_ascension_rad * kDegPerRad;
+    place.right_ascension_deg = in_circle_deg(equatorial.right_ascension_rad);
     place.declination_deg = equatorial.declination_rad * kDegPerRad;
     place.range_km = seen.distance_km;
     place.semidiameter_arcsec = seen.angular_radius_rad * kArcsecPerRad;
@@ -47,7 +47,7 @@ BodyPlace place_in(const SkyState& state, Body body, bool from_site) noexcept {
     if (body == Body::kMoon) place.moon_face = face_of(state);
     if (from_site) {
         const Horizontal horizontal = horizontal_of(seen.direction);
-        place.horizontal = {horizontal.azimuth_rad * kDegPerRad, horizontal.elevation_rad * kDegPerRad};
+        place.horizontal = {in_circle_deg(horizontal.azimuth_rad), horizontal.elevation_rad * kDegPerRad};
     }
     return place;
 }

@@ -42,6 +42,9 @@ struct BodyPlace {
     std::optional<Horizontal> horizontal;
 };
 
+/// 0 <= angle < 360, of an angle in -2 pi .. 2 pi.
+[[nodiscard]] double in_circle_deg(double angle_rad) noexcept;
+
 /// As seen from `site`, or from the Earth's centre without one (what reads "enu" then means the true equator
 /// and equinox of date).
 [[nodiscard]] server::ephemeris::SkyState sky_of(const server::ephemeris::Instant& instant,

@@ -10,6 +10,8 @@
 #include "render/night/star_catalogue.h"
 #include "render/sky/refraction.h"
 #include "server/ephemeris/angles.h"
+#include "server/ephemeris/places.h"
+#include "server/ephemeris/star_place.h"
 
 namespace skyig::clients::ephem {
 
@@ -19,20 +21,21 @@ namespace {
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
-/// As the sky is drawn: proper motion, annual aberration, one rotation.
+/// All that moves a star but its parallax, which the catalogue lacks.
 StarPlace place_star(const NamedStar& named, const SkyState& state, bool from_site) {
     const render::night::CatalogueStar& star = *render::night::find_star(named.hr);
-    const glm::dvec3 seen_gcrs =
-        glm::normalize(render::night::direction_at(star, state.years_since_j2000) + state.earth_velocity_c);
-    const Equatorial equatorial = equatorial_of(state.true_of_date_from_gcrs * seen_gcrs);
+    const glm::dvec3 seen = star_direction({.direction_gcrs = glm::dvec3(star.direction_gcrs),
+                                            .proper_motion_rad_yr = glm::dvec3(star.proper_motion_rad_yr)},
+                                           state);
+    const Equatorial equatorial = equatorial_of_date(state, seen);
     StarPlace place;
     place.star = named;
-    place.right_ascension_deg = equatorial.right_ascension_rad * kDegPerRad;
+    place.right_ascension_deg = in_circle_deg(equatorial.right_ascension_rad);
     place.declination_deg = equatorial.declination_rad * kDegPerRad;
     place.magnitude = static_cast<double>(star.vmag);
     if (from_site) {
-        const Horizontal horizontal = horizontal_of(state.enu_from_gcrs * seen_gcrs);
-        place.horizontal = {horizontal.azimuth_rad * kDegPerRad, horizontal.elevation_rad * kDegPerRad};
+        const Horizontal horizontal = horizontal_of(seen);
+        place.horizontal = {in_circle_deg(horizontal.azimuth_rad), horizontal.elevation_rad * kDegPerRad};
     }
     return place;
 }
@@ -60,7 +63,9 @@ Report make_report(const ReportRequest& request) {
     report.request = request;
     report.offsets = known_offsets(request.utc);
     report.instant = make_instant(request.utc);
-    const SkyState state = sky_of(report.instant, request.site, request.model);
+    SkyState state = sky_of(report.instant, request.site, request.model);
+    // The Earth's centre is an eye that moves with it.
+    if (!request.site) state.eye_velocity_c = state.earth_velocity_c;
     for (const Body body : request.bodies)
         report.bodies.push_back(place_in(state, body, request.site.has_value()));
     for (const NamedStar& star : request.stars)

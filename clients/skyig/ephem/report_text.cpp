@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "clients/skyig/ephem/report.h"
+#include "clients/skyig/ephem/told_angle.h"
 #include "clients/skyig/ephem/told_event.h"
 
 namespace skyig::clients::ephem {
@@ -25,20 +27,29 @@ std::string degrees(double angle_deg) {
 
 std::string horizontal_text(const std::optional<BodyPlace::Horizontal>& place, double seen_deg) {
     if (!place) return {};
-    return fmt::format("{:9.3f} {:9.3f} {:9.3f}  ", place->azimuth_deg, place->elevation_deg, seen_deg);
+    return fmt::format("{} {:9.3f} {:9.3f}  ", told_in_circle(place->azimuth_deg, 3, 9), place->elevation_deg,
+                       seen_deg);
 }
 
-std::string body_line(const Report& report, std::size_t index) {
+/// Wide enough for every name.
+std::size_t name_width(const Report& report) {
+    std::size_t width = 10;
+    for (const StarPlace& place : report.stars)
+        width = std::max(width, place.star.name.size() + 1);
+    return width;
+}
+
+std::string body_line(const Report& report, std::size_t index, std::size_t width) {
     const BodyPlace& place = report.bodies[index];
     const double seen_deg = place.horizontal ? report.refracted_elevations_deg[index] : 0.0;
-    return fmt::format("{:<10}{}{} {}  {:>14.0f} {:9.1f} {:6.2f} {:7.2f}\n", name_of(place.body),
+    return fmt::format("{:<{}}{}{} {}  {:>14.0f} {:9.1f} {:6.2f} {:7.2f}\n", name_of(place.body), width,
                        horizontal_text(place.horizontal, seen_deg), hours(place.right_ascension_deg),
                        degrees(place.declination_deg), place.range_km, 2.0 * place.semidiameter_arcsec,
                        100.0 * place.illuminated_fraction, place.magnitude);
 }
 
-std::string star_line(const StarPlace& place) {
-    return fmt::format("{:<10}{}{} {}  {:>14} {:>9} {:>6} {:7.2f}\n", place.star.name,
+std::string star_line(const StarPlace& place, std::size_t width) {
+    return fmt::format("{:<{}}{}{} {}  {:>14} {:>9} {:>6} {:7.2f}\n", place.star.name, width,
                        horizontal_text(place.horizontal, place.refracted_elevation_deg.value_or(0.0)),
                        hours(place.right_ascension_deg), degrees(place.declination_deg), "", "", "",
                        place.magnitude);
@@ -69,12 +80,13 @@ std::string to_text(const Report& report) {
                     kModelNames[static_cast<std::size_t>(report.request.model)]);
     text += site_line(report.request.site);
     const std::string_view sky = report.request.site ? "  azimuth elevation   seen at  " : "";
-    text += fmt::format("\n{:<10}{}{:<12}{:<12} {:>14} {:>9} {:>6} {:>7}\n", "", sky, "RA of date",
+    const std::size_t width = name_width(report);
+    text += fmt::format("\n{:<{}}{}{:<12}{:<12} {:>14} {:>9} {:>6} {:>7}\n", "", width, sky, "RA of date",
                         "Dec of date", "km", "diam \"", "lit %", "mag");
     for (std::size_t i = 0; i < report.bodies.size(); ++i)
-        text += body_line(report, i);
+        text += body_line(report, i, width);
     for (const StarPlace& place : report.stars)
-        text += star_line(place);
+        text += star_line(place, width);
     if (report.sun_obscured > 0.0)
         text += fmt::format("\nThe Moon covers {:.2f} % of the Sun.\n", 100.0 * report.sun_obscured);
     if (report.moon_sunlit < 1.0)

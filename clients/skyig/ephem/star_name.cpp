@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 
+#include "clients/letters.h"
 #include "render/night/star_catalogue.h"
 
 namespace skyig::clients::ephem {
@@ -37,13 +37,6 @@ constexpr std::array<Name, 58> kNames{{{"Acamar", 897},     {"Achernar", 472},  
                                        {"Sabik", 6378},     {"Schedar", 168},      {"Shaula", 6527},
                                        {"Sirius", 2491},    {"Spica", 5056},       {"Suhail", 3634},
                                        {"Vega", 7001}}};
-
-bool same_letters(std::string_view a, std::string_view b) noexcept {
-    const auto same = [](char x, char y) {
-        return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
-    };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
-}
 
 std::optional<int> parse_hr(std::string_view text) noexcept {
     if (text.size() > 2 && same_letters(text.substr(0, 2), "hr"))

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clients/skyig/ephem/told_angle.h"
+
 namespace skyig::clients::ephem {
 
 using namespace server::ephemeris;
@@ -20,7 +22,8 @@ std::string event_line(const events::Event& event) {
     std::replace(kind.begin(), kind.end(), '_', ' ');
     std::string text = fmt::format("{}  {:<8} {:<18}", told_time(event.time), name_of(event.body), kind);
     if (std::isfinite(event.azimuth_deg))
-        text += fmt::format("azimuth {:5.1f}  elevation {:5.1f}", event.azimuth_deg, event.elevation_deg);
+        text += fmt::format("azimuth {}  elevation {:5.1f}", told_in_circle(event.azimuth_deg, 1, 5),
+                            event.elevation_deg);
     text.erase(text.find_last_not_of(' ') + 1);
     return text + '\n';
 }

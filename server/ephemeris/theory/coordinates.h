@@ -16,7 +16,6 @@ inline constexpr double kJ2000_jd = 2451545.0;
 inline constexpr double kDaysPerCentury = 36525.0;
 inline constexpr double kSecondsPerDay = 86400.0;
 inline constexpr double kSecondsPerCentury = kDaysPerCentury * kSecondsPerDay;
-inline constexpr double kKmPerAu = 149597870.7;
 inline constexpr double kRadPerDegree = std::numbers::pi / 180.0;
 inline constexpr double kRadPerArcsecond = kRadPerDegree / 3600.0;
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "server/ephemeris/rotations.h"
 #include "server/ephemeris/theory/coordinates.h"
 #include "server/ephemeris/theory/planets.h"
 #include "server/ephemeris/theory/theory.h"
@@ -103,17 +104,8 @@ glm::dmat3 icrs_from_orbit(const Elements& elements, double t) noexcept {
     const double node_rad = at(elements.node_longitude_deg, t).value * kRadPerDegree;
     const double argument_rad = at(elements.perihelion_longitude_deg, t).value * kRadPerDegree - node_rad;
     const double inclination_rad = at(elements.inclination_deg, t).value * kRadPerDegree;
-    const auto about_x = [](double angle_rad) -> glm::dmat3 {
-        const double s = std::sin(angle_rad);
-        const double c = std::cos(angle_rad);
-        return {{1.0, 0.0, 0.0}, {0.0, c, s}, {0.0, -s, c}};
-    };
-    const auto about_z = [](double angle_rad) -> glm::dmat3 {
-        const double s = std::sin(angle_rad);
-        const double c = std::cos(angle_rad);
-        return {{c, s, 0.0}, {-s, c, 0.0}, {0.0, 0.0, 1.0}};
-    };
-    return about_x(kObliquity_rad) * about_z(node_rad) * about_x(inclination_rad) * about_z(argument_rad);
+    return rotation_about_x(-kObliquity_rad) * rotation_about_z(-node_rad) *
+           rotation_about_x(-inclination_rad) * rotation_about_z(-argument_rad);
 }
 
 }  // namespace

@@ -31,6 +31,12 @@ void expect_complete(const Report& report) {
         ASSERT_NE(error, nullptr) << model.name;
         EXPECT_GT(error->figures.count, 0U);
         EXPECT_NE(find_cost(model, report.headline.cost), nullptr) << model.name;
+        if (report.family == "ephemeris") {
+            EXPECT_EQ(report.headline.cost, "frame");
+            const CostEntry* worst = find_cost(model, report.headline.worst_cost);
+            ASSERT_NE(worst, nullptr) << model.name;
+            EXPECT_GT(worst->floors.median, find_cost(model, report.headline.cost)->floors.median);
+        }
         for (const CostEntry& cost : model.costs) {
             EXPECT_GT(cost.ns.median, 0.0) << model.name << ' ' << cost.name;
             EXPECT_GT(cost.floors.median, 0.0) << model.name << ' ' << cost.name;
@@ -59,6 +65,23 @@ TEST(Families, EachIsMeasuredWhole) {
         EXPECT_EQ(to_json(report_from_json(json)), json);
         std::printf("%s", to_text(report).c_str());
     }
+}
+
+TEST(Families, CountsOfWhatThereIsNotAreRefused) {
+    const server::SystemClock clock;
+    const auto message_of = [&clock](const InstructionCount& count) -> std::string {
+        try {
+            (void)measure(*find_family("wire"), kTruth, clock, {1, 100.0}, std::vector{count});
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "no complaint";
+    };
+    EXPECT_NE(message_of({"wire", "cigi33", "decod", 1.0}).find("'decod'"), std::string::npos);
+    EXPECT_NE(message_of({"wire", "cigi32", "decode", 1.0}).find("'cigi32'"), std::string::npos);
+    EXPECT_NE(message_of({"wired", "cigi33", "decode", 1.0}).find("'wired'"), std::string::npos);
+    EXPECT_EQ(message_of({"wire", "cigi33", "decode", 1.0}), "no complaint");
+    EXPECT_EQ(message_of({"ephemeris", "any", "thing", 1.0}), "no complaint");
 }
 
 TEST(Families, WireMessagesSurviveReadingAndWriting) {

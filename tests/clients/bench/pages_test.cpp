@@ -56,12 +56,18 @@ TEST(Pages, IndexHasOneLineAModel) {
     Report second = tests::sample_report();
     second.family = "clocks";
     second.models[0].name = "a | b";
+    second.models[0].costs.push_back({"blink", {20.0, 30.0, 40.0}, {10.0, 15.0, 20.0}, {}});
+    second.headline.worst_cost = "blink";
     const std::string page = index_page(std::vector<Report>{tests::sample_report(), second});
     expect_even_tables(page);
-    EXPECT_NE(page.find("| [dials](dials.md) | rough | hour | day | 40 | 20 | arcsec | read | 10 | 5 |"),
+    EXPECT_NE(
+        page.find("| [dials](dials.md) | rough | hour | day | 40 | 20 | arcsec | read | 10 | 5 |  | |  |"),
+        std::string::npos)
+        << page;
+    EXPECT_NE(page.find("| [clocks](clocks.md) | a \\| b | hour | day | 40 | 20 | arcsec | read | 10 | 5 | "
+                        "blink | 30 | 15 |"),
               std::string::npos)
         << page;
-    EXPECT_NE(page.find("| [clocks](clocks.md) | a \\| b |"), std::string::npos);
 }
 
 TEST(Pages, AFolderOfJsonBecomesPagesAndPlots) {

@@ -21,6 +21,7 @@ TEST(ReportJson, ComesBackAsItWasWritten) {
     EXPECT_FALSE(again.models[1].costs[0].instructions.has_value());
     EXPECT_EQ(again.plots[0].series[1].quantity, "minute");
     EXPECT_EQ(again.headline.cost, "read");
+    EXPECT_EQ(again.headline.worst_cost, "");
     EXPECT_EQ(again.floor_ns, report.floor_ns);
 }
 

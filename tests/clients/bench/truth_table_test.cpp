@@ -40,6 +40,9 @@ TEST_F(TruthTableTest, WhatIsWrongIsNamed) {
     EXPECT_NE(message_of([&] { TruthTable table(path_); }).find("--truth"), std::string::npos);
     write("a,b\n1,2\n3\n");
     EXPECT_NE(message_of([&] { TruthTable table(path_); }).find(":3: 1 fields"), std::string::npos);
+    write("a,b\n1,\"2\n");
+    EXPECT_NE(message_of([&] { TruthTable table(path_); }).find(":2: the line is too long or a quote"),
+              std::string::npos);
     write("a,b\n1,2x\n");
     const TruthTable table(path_);
     EXPECT_NE(message_of([&] { (void)table.number(0, "b"); }).find("'2x' is not a number"),

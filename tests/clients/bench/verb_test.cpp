@@ -54,6 +54,7 @@ TEST(BenchVerb, WrongUseIsRefusedInOneLine) {
         const Invocation invocation = invoke(words);
         EXPECT_EQ(invocation.exit_status, 2);
         EXPECT_EQ(std::count(invocation.error.begin(), invocation.error.end(), '\n'), 1) << invocation.error;
+        EXPECT_NE(invocation.error.find("skyig bench --help"), std::string::npos) << invocation.error;
     }
 }
 

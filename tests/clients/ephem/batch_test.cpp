@@ -4,12 +4,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "clients/skyig/ephem/csv.h"
+#include "clients/csv.h"
+#include "clients/skyig/ephem/body_place.h"
+#include "clients/skyig/ephem/told_angle.h"
 
 namespace skyig::clients::ephem {
 namespace {
@@ -41,7 +45,8 @@ Outcome run(const std::string& table, BatchSettings settings = {}) {
     std::ostringstream output;
     std::ostringstream errors;
     Outcome outcome;
-    outcome.count = run_batch(input, output, errors, settings);
+    outcome.count = run_batch(
+        input, [&]() -> std::ostream& { return output; }, errors, settings);
     outcome.text = output.str();
     outcome.errors = errors.str();
     std::istringstream again(outcome.text);
@@ -123,6 +128,8 @@ TEST(Batch, AnyColumnOfTimesCanBeNamed) {
     settings.body = Body::kSun;
     const Outcome outcome = run("lat_deg,lon_deg,dusk\n28.538,-81.379,2021-11-07T23:00Z\n", settings);
     EXPECT_NEAR(outcome.number(0, "skyig_el_deg"), -6.0, 0.2);
+    settings.time_column = "jd_tt";
+    EXPECT_EQ(run("utc,jd_tt\n,2451545.0\n", settings).errors, "");
     settings.time_column = "dawn";
     expect_refused("lat_deg,lon_deg,dusk\n", "no column 'dawn'", settings);
 }
@@ -160,6 +167,64 @@ TEST(Batch, BadRowsAreToldAndTheOthersStillDone) {
     EXPECT_EQ(outcome.field(1, "skyig_ra_deg"), "");
     EXPECT_EQ(outcome.records[2].fields.size(), outcome.records[0].fields.size());
     EXPECT_NEAR(outcome.number(9, "skyig_ra_deg"), outcome.number(0, "skyig_ra_deg"), 1e-6);
+}
+
+TEST(Batch, OfSeveralTimesTheFirstIsReadAlone) {
+    const Outcome outcome = run("jd_tt,utc,body\n2451545.0,,sun\n2451545.0,2024-04-08T19:12:34Z,sun\n");
+    EXPECT_EQ(outcome.count.bad_rows, 1U);
+    EXPECT_THAT(outcome.errors, HasSubstr("in.csv:2: utc: '' is no time"));
+    EXPECT_NEAR(outcome.number(1, "skyig_ra_deg"), 17.9, 0.2);
+}
+
+TEST(Batch, HeadingsMayBeInCapitals) {
+    const Outcome outcome =
+        run("UTC,Body,LAT_deg,Lon_Deg,H_M,TT_minus_utc_s\n2024-04-08T19:12:34Z,sun,41,-83,100,69.184\n");
+    EXPECT_EQ(outcome.errors, "");
+    EXPECT_NEAR(outcome.number(0, "skyig_ra_deg"), 17.9, 0.2);
+    EXPECT_NE(outcome.field(0, "skyig_el_deg"), "");
+    expect_refused("utc,SKYIG_RA_DEG\n", "is there already");
+}
+
+TEST(Batch, WhatTheTableSaysComesBeforeTheSettings) {
+    BatchSettings settings;
+    settings.body = Body::kMars;
+    settings.site = server::ephemeris::Geodetic{-30.0, 100.0, 5000.0};
+    const std::string table = "utc,body,lat_deg,lon_deg\n2024-04-08T19:12:34Z,sun,41,-83\n";
+    EXPECT_EQ(run(table, settings).text, run(table).text);
+}
+
+TEST(Batch, LinesTooLongAreToldAndTheOthersStillDone) {
+    std::string table = "utc,body\n2024-04-08T19:12:34Z,";
+    table.append(2'000'000, 'x').append("\n2024-04-08T19:12:34Z,sun\n");
+    const Outcome outcome = run(table);
+    EXPECT_EQ(outcome.count.rows, 2U);
+    EXPECT_EQ(outcome.count.bad_rows, 1U);
+    EXPECT_EQ(outcome.errors, "in.csv:2: the line is longer than 1048576 bytes\n");
+    EXPECT_NEAR(outcome.number(0, "skyig_ra_deg"), 17.9, 0.2);
+    expect_refused(std::string(2'000'000, 'x'), "longer than");
+}
+
+TEST(Batch, NothingIsOpenedForAHeadingThatCannotBeUsed) {
+    std::istringstream input("when,body\n");
+    std::ostringstream text;
+    bool opened = false;
+    const auto open = [&]() -> std::ostream& {
+        opened = true;
+        return text;
+    };
+    EXPECT_THROW(run_batch(input, open, text, {}), std::runtime_error);
+    EXPECT_FALSE(opened);
+}
+
+TEST(Batch, AnglesOfTheCircleEndBelow360) {
+    EXPECT_EQ(told_in_circle(359.9996, 3), "0.000");
+    EXPECT_EQ(told_in_circle(359.9994, 3), "359.999");
+    EXPECT_EQ(told_in_circle(359.96, 1, 5), "  0.0");
+    EXPECT_EQ(told_in_circle(360.0 - 1e-10, 9), "0.000000000");
+    EXPECT_EQ(told_in_circle(0.0, 3), "0.000");
+    EXPECT_EQ(in_circle_deg(-1e-300), 0.0);
+    EXPECT_EQ(in_circle_deg(-std::numbers::pi / 2.0), 270.0);
+    EXPECT_LT(in_circle_deg(std::nextafter(2.0 * std::numbers::pi, 0.0)), 360.0);
 }
 
 TEST(Batch, HeadingsThatCannotBeUsedAreToldInOneLine) {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -32,7 +33,8 @@ std::vector<CsvRow> filled_in(const std::string& path, const BatchSettings& sett
     std::ostringstream errors;
     {
         std::ofstream output(filled);
-        const BatchCount count = run_batch(input, output, errors, settings);
+        const BatchCount count = run_batch(
+            input, [&]() -> std::ostream& { return output; }, errors, settings);
         EXPECT_EQ(count.bad_rows, 0U) << errors.str();
     }
     std::vector<CsvRow> rows = tests::read_csv(filled.string());
@@ -52,7 +54,8 @@ double bound_arcsec(const std::string& body) {
 }
 
 void expect_within_bounds(const char* what, const std::map<std::string, ErrorStatistics>& errors,
-                          double allowance_arcsec = 0.0) {
+                          std::size_t bodies = server::ephemeris::kBodyCount, double allowance_arcsec = 0.0) {
+    EXPECT_EQ(errors.size(), bodies) << what;
     for (const auto& [body, error] : errors) {
         std::printf("%s %s: %zu rows max %.3f rms %.3f arcsec\n", what, body.c_str(), error.count, error.max,
                     error.rms());
@@ -73,7 +76,6 @@ TEST(BatchTruth, TopocentricPlacesHold) {
         phase_deg.add(row.number("phase_angle_deg") - row.number("skyig_phase_angle_deg"));
         semidiameter_arcsec.add(row.number("semidiam_arcsec") - row.number("skyig_semidiameter_arcsec"));
     }
-    ASSERT_EQ(equatorial.size(), 7U);
     expect_within_bounds("topo RA/Dec", equatorial);
     expect_within_bounds("topo az/el", horizontal);
     EXPECT_LE(phase_deg.max, 0.001);
@@ -85,23 +87,25 @@ TEST(BatchTruth, GeocentricPlacesHold) {
     for (const CsvRow& row : filled_in(SKYIG_TEST_DATA "/ephemeris/geo_truth.csv"))
         equatorial[row.text("body")].add(
             separation_arcsec(row, "ra_app_deg", "dec_app_deg", "skyig_ra_deg", "skyig_dec_deg"));
-    ASSERT_EQ(equatorial.size(), 7U);
     expect_within_bounds("geo RA/Dec", equatorial);
 }
 
 TEST(BatchTruth, HorizonsHolds) {
     const std::vector<CsvRow> rows = filled_in(SKYIG_REFERENCE "/ephemeris/horizons_airless.csv");
     if (rows.empty()) GTEST_SKIP() << "the table horizons_airless.csv is not part of this clone";
+    EXPECT_EQ(rows.size(), 468U);
     std::map<std::string, ErrorStatistics> horizontal;
     for (const CsvRow& row : rows)
         horizontal[row.text("body")].add(
             separation_arcsec(row, "hz_az_deg", "hz_el_deg", "skyig_az_deg", "skyig_el_deg"));
-    expect_within_bounds("Horizons az/el", horizontal, 0.3);
+    constexpr std::size_t kSunMoonJupiter = 3;
+    expect_within_bounds("Horizons az/el", horizontal, kSunMoonJupiter, 0.3);
 }
 
 TEST(BatchTruth, LibrationHolds) {
     const std::vector<CsvRow> rows = filled_in(SKYIG_REFERENCE "/ephemeris/libration.csv");
     if (rows.empty()) GTEST_SKIP() << "the table libration.csv is not part of this clone";
+    EXPECT_EQ(rows.size(), 173U);
     for (const char* column :
          {"subsolar_lon_deg", "subsolar_lat_deg", "subearth_lon_deg", "subearth_lat_deg", "axis_pa_deg"}) {
         ErrorStatistics error_deg;
@@ -117,8 +121,16 @@ TEST(BatchTruth, MagnitudesHold) {
     const std::vector<CsvRow> rows = filled_in(SKYIG_REFERENCE "/ephemeris/horizons_mag_phase.csv");
     if (rows.empty()) GTEST_SKIP() << "the table horizons_mag_phase.csv is not part of this clone";
     std::map<std::string, ErrorStatistics> magnitude;
-    for (const CsvRow& row : rows)
+    EXPECT_EQ(rows.size(), 293U);
+    std::size_t without_magnitude = 0;
+    for (const CsvRow& row : rows) {
+        if (row.text("v_mag").empty()) {
+            ++without_magnitude;
+            continue;
+        }
         magnitude[row.text("body")].add(row.number("v_mag") - row.number("skyig_magnitude"));
+    }
+    EXPECT_EQ(without_magnitude, 4U);
     for (const auto& [body, error] : magnitude) {
         std::printf("magnitude of %s: max %.3f\n", body.c_str(), error.max);
         EXPECT_LE(error.max, 0.1) << body;

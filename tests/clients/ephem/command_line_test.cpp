@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <variant>
 #include <vector>
@@ -45,7 +49,8 @@ TEST(EphemCommandLine, OptionsArrive) {
 TEST(EphemCommandLine, HelpTellsTheTablesAndConventions) {
     const Invocation invocation = read({"--help"});
     EXPECT_EQ(invocation.exit_status, 0);
-    for (const char* part : {"--batch", "--events", "--time-column", "jd_tt", "J2000", "34'", "exit status"})
+    for (const char* part : {"--batch", "--events", "--time-column", "jd_tt", "J2000", "34'", "exit status",
+                             "--lat, --lon and --alt are not used", "the first in this order"})
         EXPECT_THAT(invocation.output, HasSubstr(part));
 }
 
@@ -60,7 +65,13 @@ TEST(EphemCommandLine, WrongUsageIsOneLineAndStatusTwo) {
     expect_wrong_usage({"--out", "x.csv"}, "--batch");
     expect_wrong_usage({"--batch", "x.csv", "--utc", "2024-04-08T19:12:34Z"}, "--utc");
     expect_wrong_usage({"--json", "--text"}, "--text");
-    expect_wrong_usage({"--horizon", "eye"}, "--events");
+    expect_wrong_usage({"--horizon", "eye"}, "--horizon requires");
+    expect_wrong_usage({"--utc", "1850-01-01T00:00:00Z"}, "1900..2100");
+    expect_wrong_usage({"--batch", ""}, "--batch");
+    expect_wrong_usage({"--batch", "x.csv", "--out", ""}, "--out");
+    expect_wrong_usage({"--batch", "x.csv", "--time-column", ""}, "--time-column");
+    expect_wrong_usage({"--batch", "x.csv", "--body", "sun,moon"}, "a table takes one body");
+    expect_wrong_usage({"--json", "--text"}, "skyig ephem --help");
 }
 
 class EphemFiles : public ::testing::Test {
@@ -101,7 +112,7 @@ TEST_F(EphemFiles, GoodTablesLeaveWithZeroAndBadRowsWithOne) {
 
 TEST_F(EphemFiles, TableIsNeverWrittenOverItself) {
     write("same.csv", "utc,body\n2024-04-08T19:12:34Z,sun\n");
-    EXPECT_EQ(run_ephem(batch("same.csv", "same.csv")), 1);
+    EXPECT_EQ(run_ephem(batch("same.csv", "same.csv")), 2);
     EXPECT_EQ(text("same.csv"), "utc,body\n2024-04-08T19:12:34Z,sun\n");
 }
 
@@ -114,10 +125,70 @@ TEST_F(EphemFiles, FilesThatCannotBeReadOrWrittenFail) {
     EXPECT_EQ(run_ephem(batch("empty.csv", "out.csv")), 1);
 }
 
-TEST(Ephem, DatesBeyondTheTheoriesFail) {
+TEST_F(EphemFiles, ReadErrorsAreTold) {
+    EphemOptions options = batch("", "out.csv");
+    // The memory of a process can be opened, and its first page cannot be read.
+    for (const std::string& unreadable : {path(""), std::string("/proc/self/mem")}) {
+        options.batch_path = unreadable;
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(run_ephem(options), 1);
+        EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr(unreadable + ":1: cannot be read"));
+    }
+}
+
+TEST_F(EphemFiles, RefusedTablesLeaveTheOldOutputAlone) {
+    write("out.csv", "precious\n");
+    write("bad.csv", "when,body\n");
+    EXPECT_EQ(run_ephem(batch("bad.csv", "out.csv")), 1);
+    EXPECT_EQ(run_ephem(batch("missing.csv", "out.csv")), 1);
+    EXPECT_EQ(text("out.csv"), "precious\n");
+}
+
+std::string told_by(const EphemOptions& options) {
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(run_ephem(options), 0);
+    std::fflush(stdout);
+    return testing::internal::GetCapturedStdout();
+}
+
+TEST(Ephem, WhatIsAskedTwiceIsToldOnce) {
     EphemOptions options;
-    options.utc = "1850-01-01T00:00:00Z";
-    EXPECT_EQ(run_ephem(options), 1);
+    options.utc = "2024-04-08T19:12:34Z";
+    options.bodies = {"sun", "Mars", "SUN"};
+    options.stars = {"Vega", "7001", "Sirius", "hr 7001"};
+    options.json = true;
+    const auto json = nlohmann::json::parse(told_by(options));
+    ASSERT_EQ(json["bodies"].size(), 2U);
+    EXPECT_EQ(json["bodies"][1]["body"], "mars");
+    ASSERT_EQ(json["stars"].size(), 2U);
+    EXPECT_EQ(json["stars"][1]["name"], "Sirius");
+}
+
+TEST(Ephem, TheEyesHorizonFromACruisingAircraftIsLow) {
+    EphemOptions options;
+    options.events = "2026-03-20..2026-03-20";
+    options.latitude_deg = 0.0;
+    options.longitude_deg = 0.0;
+    options.height_m = 10972.8;
+    options.bodies = {"sun"};
+    options.eye_horizon = true;
+    options.json = true;
+    const auto json = nlohmann::json::parse(told_by(options));
+    std::map<std::string, double> limbs_deg;
+    std::map<std::string, std::string> times;
+    for (const auto& event : json["events"]) {
+        if (event["event"] != "rise" && event["event"] != "set") continue;
+        constexpr double kSemidiameter_deg = 0.2677;
+        limbs_deg[event["event"]] = event["elevation_deg"].get<double>() + kSemidiameter_deg;
+        times[event["event"]] = event["utc"];
+    }
+    EXPECT_EQ(times["rise"], "2026-03-20T05:49:41Z");
+    EXPECT_EQ(times["set"], "2026-03-20T18:25:11Z");
+    for (const char* event : {"rise", "set"}) {
+        std::printf("%s: upper limb at %.3f deg\n", event, limbs_deg[event]);
+        // Traced through the standard atmosphere: dip and refraction along the ray that grazes the sea.
+        EXPECT_NEAR(limbs_deg[event], -4.2, 0.05) << event;
+    }
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -50,29 +52,80 @@ TEST(EphemReport, JsonHasEveryBodyWithStableKeys) {
     EXPECT_EQ(json["next"].size(), 12U);
 }
 
-TEST(EphemReport, StarsStandWhereErfaHasThem) {
-    const Report report = make_report(eclipse_request());
+Equatorial catalogue_place(const StarPlace& place) {
+    return equatorial_of(render::night::direction_at(*render::night::find_star(place.star.hr),
+                                                     (2460409.3 - 2451545.0) / 365.25));
+}
+
+glm::dvec3 direction(double longitude_rad, double latitude_rad) {
+    return {std::cos(latitude_rad) * std::cos(longitude_rad),
+            std::cos(latitude_rad) * std::sin(longitude_rad), std::sin(latitude_rad)};
+}
+
+constexpr double kArcsecPerRad = 206264.806;
+constexpr double kStarBound_arcsec = 0.005;
+
+TEST(EphemReport, StarsFromTheEarthsCentreStandWhereErfaHasThem) {
+    ReportRequest request = eclipse_request();
+    request.site.reset();
+    const Report report = make_report(request);
     for (const StarPlace& place : report.stars) {
-        const glm::dvec3 catalogue = render::night::direction_at(*render::night::find_star(place.star.hr),
-                                                                 (2460409.3 - 2451545.0) / 365.25);
-        const Equatorial icrs = equatorial_of(catalogue);
+        const Equatorial icrs = catalogue_place(place);
         double cirs_rad = 0.0;
         double declination_rad = 0.0;
         double origins_rad = 0.0;
         eraAtci13(icrs.right_ascension_rad, icrs.declination_rad, 0.0, 0.0, 0.0, 0.0, report.instant.tt.day,
                   report.instant.tt.fraction, &cirs_rad, &declination_rad, &origins_rad);
-        const auto direction = [](double longitude_rad, double latitude_rad) {
-            return glm::dvec3(std::cos(latitude_rad) * std::cos(longitude_rad),
-                              std::cos(latitude_rad) * std::sin(longitude_rad), std::sin(latitude_rad));
-        };
-        const double off_arcsec = angle_between_rad(direction(cirs_rad - origins_rad, declination_rad),
-                                                    direction(glm::radians(place.right_ascension_deg),
-                                                              glm::radians(place.declination_deg))) *
-                                  206264.806;
+        const double off_arcsec =
+            kArcsecPerRad * angle_between_rad(direction(cirs_rad - origins_rad, declination_rad),
+                                              direction(glm::radians(place.right_ascension_deg),
+                                                        glm::radians(place.declination_deg)));
         std::printf("%s: %.4f arcsec\n", place.star.name.c_str(), off_arcsec);
-        // The Sun's deflection is left out, as in the picture.
-        EXPECT_LE(off_arcsec, 0.05);
+        EXPECT_LE(off_arcsec, kStarBound_arcsec);
     }
+}
+
+TEST(EphemReport, StarsFromASiteStandWhereErfaHasThem) {
+    const ReportRequest request = eclipse_request();
+    const Report report = make_report(request);
+    for (const StarPlace& place : report.stars) {
+        const Equatorial icrs = catalogue_place(place);
+        double azimuth_rad = 0.0;
+        double zenith_distance_rad = 0.0;
+        double hour_angle_rad = 0.0;
+        double declination_rad = 0.0;
+        double cirs_rad = 0.0;
+        double origins_rad = 0.0;
+        ASSERT_EQ(eraAtco13(icrs.right_ascension_rad, icrs.declination_rad, 0.0, 0.0, 0.0, 0.0,
+                            2400000.5 + request.utc.mjd(), request.utc.second_of_day() / 86400.0,
+                            report.offsets.ut1_minus_utc_s, glm::radians(request.site->longitude_deg),
+                            glm::radians(request.site->latitude_deg), request.site->height_m, 0.0, 0.0, 0.0,
+                            0.0, 0.0, 0.5, &azimuth_rad, &zenith_distance_rad, &hour_angle_rad,
+                            &declination_rad, &cirs_rad, &origins_rad),
+                  0);
+        const double sky_off_arcsec =
+            kArcsecPerRad *
+            angle_between_rad(direction(azimuth_rad, std::numbers::pi / 2.0 - zenith_distance_rad),
+                              direction(glm::radians(place.horizontal->azimuth_deg),
+                                        glm::radians(place.horizontal->elevation_deg)));
+        std::printf("%s: %.4f arcsec\n", place.star.name.c_str(), sky_off_arcsec);
+        EXPECT_LE(sky_off_arcsec, kStarBound_arcsec);
+    }
+}
+
+TEST(EphemReport, LongNamesKeepTheColumns) {
+    ReportRequest request = eclipse_request();
+    request.stars.push_back(parse_star("Rigil Kentaurus").value());
+    std::istringstream lines(to_text(make_report(request)));
+    std::size_t heading_hours = std::string::npos;
+    int told = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find("RA of date") != std::string::npos) heading_hours = line.find("RA of date");
+        if (heading_hours == std::string::npos || line.find("\u00b0") == std::string::npos) continue;
+        EXPECT_EQ(line.find_first_of('h', heading_hours), heading_hours + 2) << line;
+        ++told;
+    }
+    EXPECT_EQ(told, 10);
 }
 
 TEST(EphemReport, WithoutASiteItIsTheEarthsCentre) {

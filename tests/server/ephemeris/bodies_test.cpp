@@ -15,6 +15,7 @@
 #include "server/ephemeris/moon_face.h"
 #include "server/ephemeris/places.h"
 #include "server/ephemeris/slow_sky.h"
+#include "tests/server/ephemeris/largest.h"
 #include "tests/server/ephemeris/truth.h"
 
 namespace skyig::server::ephemeris {
@@ -92,7 +93,7 @@ TEST(Magnitude, IsFiniteAndSteadyForEveryPhase) {
             const double now = planet_magnitude(
                 body, {.phase_angle_rad = phase_deg * kRadPerDeg, .ring_inclination_rad = 0.4});
             ASSERT_TRUE(std::isfinite(now));
-            largest_step = std::max(largest_step, std::abs(now - before));
+            tests::raise(largest_step, now - before);
             before = now;
         }
         // Venus steps by 0.15 where its crescent gives way to its glowing air, Mars by 0.02 at 50 deg.

@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/server/ephemeris/largest.h"
 #include "tests/server/ephemeris/leap_seconds.h"
 #include "tests/support/allocation_count.h"
 
@@ -137,8 +138,8 @@ TEST(EarthOrientation, InterpolatesThroughALeapSecond) {
     for (int step = 0; step < 4000; ++step) {
         time.advance(kStep_s);
         const Instant now = make_instant(time, orientation.at(time));
-        largest_s = std::max({largest_s, std::abs(difference_s(now.ut1, before.ut1) - kStep_s),
-                              std::abs(difference_s(now.tt, before.tt) - kStep_s)});
+        tests::raise(largest_s, difference_s(now.ut1, before.ut1) - kStep_s);
+        tests::raise(largest_s, difference_s(now.tt, before.tt) - kStep_s);
         before = now;
     }
     std::printf("UT1 from a file through a leap second, steps of 1 ms: max error %.1e s\n", largest_s);
@@ -161,8 +162,7 @@ TEST(EarthOrientation, EveryLeapSecondIsCrossedWithoutAStep) {
             const UtcClockTime moment = at(std::string(day) + second);
             const TimeOffsets offsets = orientation.at(moment);
             ASSERT_TRUE(offsets.ut1_minus_utc_s.has_value());
-            largest_s = std::max(largest_s,
-                                 std::abs(*offsets.ut1_minus_utc_s - known_offsets(moment).ut1_minus_utc_s));
+            tests::raise(largest_s, *offsets.ut1_minus_utc_s - known_offsets(moment).ut1_minus_utc_s);
         }
     }
     std::printf("interpolated UT1-UTC on 27 leap second days: max %.5f s from what the file was made of\n",
@@ -191,8 +191,8 @@ TEST(EarthOrientation, GoesOverToTheTablesWithinADay) {
     for (int step = 0; step < 8 * 8640; ++step) {
         time.advance(kStep_s);
         const Instant now = make_instant(time, orientation.at(time));
-        largest_s = std::max(largest_s, std::abs(difference_s(now.ut1, before.ut1) - kStep_s));
-        pole_step_rad = std::max(pole_step_rad, std::abs(now.polar_y_rad - before.polar_y_rad));
+        tests::raise(largest_s, difference_s(now.ut1, before.ut1) - kStep_s);
+        tests::raise(pole_step_rad, now.polar_y_rad - before.polar_y_rad);
         before = now;
     }
     std::printf(

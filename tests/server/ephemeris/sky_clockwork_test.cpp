@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/server/ephemeris/largest.h"
 #include "tests/server/ephemeris/truth.h"
 #include "tests/support/allocation_count.h"
 
@@ -46,9 +47,7 @@ struct Difference {
     double sunlit = 0.0;
 
     void add(const SkyState& a, const SkyState& b) {
-        const auto raise = [](double& largest, double value) {
-            largest = std::max(largest, std::abs(value));
-        };
+        using tests::raise;
         for (glm::length_t column = 0; column < 3; ++column) {
             raise(stars_arcsec, separation_arcsec(a.enu_from_gcrs[column], b.enu_from_gcrs[column]));
             raise(stars_arcsec,
@@ -127,7 +126,7 @@ TEST_P(SkyClockworkOf, AddsLessThanATenThousandthOfAnArcsecond) {
     EXPECT_LE(difference.sun_moon_arcsec, 1e-4);
     EXPECT_LE(difference.planets_arcsec, 1e-4);
     EXPECT_LE(difference.moon_face_arcsec, 0.01);
-    EXPECT_LE(difference.phases_arcsec, 1.0);
+    EXPECT_LE(difference.phases_arcsec, 0.05);
     EXPECT_LE(difference.moon_km, 0.01);
     EXPECT_LE(difference.magnitude, 1e-4);
     EXPECT_LE(difference.shadow_moon_radii, 1e-4);
@@ -232,7 +231,7 @@ TEST(SkyClockwork, MovesWithoutAStepFromFrameToFrame) {
         const SkyState now = clockwork.state(make_instant(time), kEye);
         const double moved_arcsec = separation_arcsec(now.sun.direction_enu, before.sun.direction_enu);
         least_arcsec = std::min(least_arcsec, moved_arcsec);
-        largest_arcsec = std::max(largest_arcsec, moved_arcsec);
+        tests::raise(largest_arcsec, moved_arcsec);
         before = now;
     }
     std::printf("the Sun moves %.5f..%.5f arcsec a second\n", least_arcsec, largest_arcsec);
@@ -290,13 +289,9 @@ double median_ns(int rounds, int calls, const Call& call) {
     return ns[static_cast<std::size_t>(rounds) / 2];
 }
 
-TEST(SkyClockwork, CostsUnderAMicrosecondAFrameAndAMillisecondAJump) {
+TEST(SkyClockwork, CostsUnderAMillisecondAJump) {
     double sum = 0.0;
-    UtcClockTime time = clock_at("2026-06-21T12:00:00Z");
-    const double instant_ns = median_ns(41, 500, [&] {
-        time.advance(1e-3);
-        sum += make_instant(time).tt.fraction;
-    });
+    const UtcClockTime time = clock_at("2026-06-21T12:00:00Z");
     for (const Model model : {Model::kAlmanac, Model::kErfa, Model::kSeries}) {
         SkyClockwork clockwork(model);
         Instant instant = make_instant(time);
@@ -314,13 +309,12 @@ TEST(SkyClockwork, CostsUnderAMicrosecondAFrameAndAMillisecondAJump) {
         const double computed_ns =
             median_ns(41, 5, [&] { sum += compute_sky_state(instant, eye, model).sun.direction_enu.z; });
         const std::string name(kModelNames[static_cast<std::size_t>(model)]);
-        std::printf("%s: frame %.0f ns (and make_instant %.0f), jump %.0f ns, compute_sky_state %.0f ns\n",
-                    name.c_str(), frame_ns, instant_ns, jump_ns, computed_ns);
+        std::printf("%s: frame %.0f ns, jump %.0f ns, compute_sky_state %.0f ns\n", name.c_str(), frame_ns,
+                    jump_ns, computed_ns);
         RecordProperty(name + "_frame_ns", static_cast<int>(frame_ns));
         RecordProperty(name + "_jump_ns", static_cast<int>(jump_ns));
-        // Wide, since the machine may be busy and the build may carry sanitizers; the claims are one
-        // microsecond and one millisecond.
-        EXPECT_LE(frame_ns, 30e3);
+        // Wide, since the machine may be busy and the build may carry sanitizers; frame_cost_test.cpp has the
+        // frame's own bound.
         EXPECT_LE(jump_ns, 10e6);
         if (model == Model::kSeries) {
             EXPECT_LE(frame_ns, 0.1 * computed_ns);

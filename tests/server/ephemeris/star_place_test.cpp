@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "render/night/star_catalogue.h"
+#include "tests/server/ephemeris/largest.h"
 #include "tests/server/ephemeris/truth.h"
 
 namespace skyig::server::ephemeris {
@@ -154,9 +155,8 @@ TEST(StarPlace, PolarMotionTurnsStarsAndSiteTogether) {
     for (const int hr : {2491, 2326, 424, 5459, 7001}) {
         const Star star = star_of(*render::night::find_star(hr));
         const glm::dvec3 seen = star_direction(star, state);
-        largest_arcsec = std::max(largest_arcsec, separation_arcsec(seen, chain.direction_enu(star)));
-        largest_shift_arcsec =
-            std::max(largest_shift_arcsec, separation_arcsec(seen, star_direction(star, without)));
+        tests::raise(largest_arcsec, separation_arcsec(seen, chain.direction_enu(star)));
+        tests::raise(largest_shift_arcsec, separation_arcsec(seen, star_direction(star, without)));
     }
     std::printf("polar motion shifts by %.3f arcsec, against ERFA %.5f\n", largest_shift_arcsec,
                 largest_arcsec);

@@ -14,6 +14,7 @@
 
 #include "server/ephemeris/delta_t.h"
 #include "server/ephemeris/time.h"
+#include "tests/server/ephemeris/largest.h"
 #include "tests/server/ephemeris/leap_seconds.h"
 #include "tests/server/ephemeris/truth.h"
 
@@ -49,8 +50,8 @@ class StepWatch {
         const double tt_step_s = difference_s(now.tt, instant_.tt);
         const double ut1_step_s = difference_s(now.ut1, instant_.ut1);
         backwards_ += tt_step_s > 0.0 && ut1_step_s > 0.0 ? 0 : 1;
-        tt_error_s_ = std::max(tt_error_s_, std::abs(tt_step_s - step_s));
-        ut1_error_s_ = std::max(ut1_error_s_, std::abs(ut1_step_s - step_s));
+        tests::raise(tt_error_s_, tt_step_s - step_s);
+        tests::raise(ut1_error_s_, ut1_step_s - step_s);
         instant_ = now;
     }
 
@@ -87,9 +88,9 @@ TEST(Instant, IsThatOfErfa) {
         ASSERT_EQ(eraTaitt(tai[0], tai[1], &tt[0], &tt[1]), 0);
         ASSERT_GE(eraUtcut1(utc[0], utc[1], kDut1_s, &ut1[0], &ut1[1]), 0);
         const Instant instant = make_instant(time, kDut1_s);
-        largest_s = std::max({largest_s, std::abs(difference_s(instant.tt, {tt[0], tt[1]})),
-                              std::abs(difference_s(instant.ut1, {ut1[0], ut1[1]})),
-                              std::abs(difference_s(tai_from_tt(instant.tt), {tai[0], tai[1]}))});
+        tests::raise(largest_s, difference_s(instant.tt, {tt[0], tt[1]}));
+        tests::raise(largest_s, difference_s(instant.ut1, {ut1[0], ut1[1]}));
+        tests::raise(largest_s, difference_s(tai_from_tt(instant.tt), {tai[0], tai[1]}));
         ++count;
     };
     const UtcClockTime end = at("2026-12-31T00:00:00Z");
@@ -131,8 +132,8 @@ TEST(Instant, RunsForwardsThroughEverySeam) {
         for (int step = 0; step < 4000; ++step)
             watch.advance(0.001);
         backwards += watch.backwards();
-        tt_error_s = std::max(tt_error_s, watch.tt_error_s());
-        ut1_error_s = std::max(ut1_error_s, watch.ut1_error_s());
+        tests::raise(tt_error_s, watch.tt_error_s());
+        tests::raise(ut1_error_s, watch.ut1_error_s());
     }
     std::printf("%zu seams in steps of 1 ms: step errors TT %.1e s, UT1 %.1e s\n", seams.size(), tt_error_s,
                 ut1_error_s);
@@ -166,8 +167,8 @@ TEST(Instant, IsThatOfEveryTruthRowWithItsOffsets) {
         const Instant expected = tests::instant_of(text, tt_minus_utc_s, ut1_minus_utc_s);
         const Instant instant =
             make_instant(at(text), {.tt_minus_utc_s = tt_minus_utc_s, .ut1_minus_utc_s = ut1_minus_utc_s});
-        largest_s = std::max({largest_s, std::abs(difference_s(instant.tt, expected.tt)),
-                              std::abs(difference_s(instant.ut1, expected.ut1))});
+        tests::raise(largest_s, difference_s(instant.tt, expected.tt));
+        tests::raise(largest_s, difference_s(instant.ut1, expected.ut1));
         EXPECT_FALSE(instant.leap_seconds_assumed) << text;
         leap_seconds += text.find(":60") != std::string::npos ? 1 : 0;
     }
@@ -248,8 +249,8 @@ TEST(DynamicalTime, FollowsErfasSeries) {
     for (double day = kFirst; day < kLast; day += 9.7) {
         const JulianDate tt{day, 0.25};
         const double truth_s = eraDtdb(tt.day, tt.fraction, 0.0, 0.0, 0.0, 0.0);
-        largest_s = std::max(largest_s, std::abs(tdb_minus_tt_s(tt) - truth_s));
-        largest_offset_s = std::max(largest_offset_s, std::abs(difference_s(tdb_from_tt(tt), tt)));
+        tests::raise(largest_s, tdb_minus_tt_s(tt) - truth_s);
+        tests::raise(largest_offset_s, difference_s(tdb_from_tt(tt), tt));
     }
     std::printf("TDB - TT: up to %.6f s, error %.1e s\n", largest_offset_s, largest_s);
     EXPECT_LE(largest_s, 5.5e-5);
@@ -267,7 +268,7 @@ TEST(DeltaT, FollowsTheMeasuredValues) {
           Measured{1940.0, 24.43}, Measured{1950.0, 28.93}, Measured{1960.0, 33.07}, Measured{1972.0, 42.23},
           Measured{1980.0, 50.54}, Measured{1990.0, 56.86}, Measured{2000.0, 63.83}, Measured{2010.0, 66.07},
           Measured{2015.0, 67.64}, Measured{2018.0, 68.97}, Measured{2022.0, 69.29}}) {
-        largest_s = std::max(largest_s, std::abs(delta_t_s(row.year) - row.delta_t_s));
+        tests::raise(largest_s, delta_t_s(row.year) - row.delta_t_s);
         // Between the knots too: half-way the measured values lie within what a year can do.
         EXPECT_NEAR(delta_t_s(row.year + 0.5), 0.5 * (delta_t_s(row.year) + delta_t_s(row.year + 1.0)), 0.1);
     }
@@ -290,8 +291,8 @@ TEST(DeltaT, NeverStepsAndNeverOutrunsTheClock) {
     constexpr double kStep_years = 1.0 / 4096.0;
     double steepest = 0.0;
     for (double year = 1899.0; year < 2101.0; year += kStep_years) {
-        steepest = std::max(steepest, std::abs(delta_t_s(year + kStep_years) - delta_t_s(year)) /
-                                          (kStep_years * kSecondsPerYear));
+        tests::raise(steepest, std::abs(delta_t_s(year + kStep_years) - delta_t_s(year)) /
+                                   (kStep_years * kSecondsPerYear));
     }
     std::printf("delta-T moves by at most %.1e s in a second\n", steepest);
     EXPECT_LE(steepest, 1e-7);
@@ -318,6 +319,32 @@ TEST(DeltaT, FollowsTheDailyValuesOfHorizons) {
     EXPECT_GT(measured.count, 500U);
     EXPECT_LE(early.max, 0.02);
     EXPECT_LE(measured.max, 0.035);
+}
+
+TEST(OffsetsOfDay, AreTheKnownOffsetsWhateverWayTheClockRuns) {
+    OffsetsOfDay offsets;
+    const auto expect_same = [&offsets](const UtcClockTime& time) {
+        const KnownOffsets known = known_offsets(time);
+        const KnownOffsets kept = offsets.at(time);
+        EXPECT_EQ(kept.tt_minus_utc_s, known.tt_minus_utc_s) << to_iso(time, 3);
+        EXPECT_EQ(kept.ut1_minus_utc_s, known.ut1_minus_utc_s) << to_iso(time, 3);
+        EXPECT_EQ(kept.leap_seconds_assumed, known.leap_seconds_assumed) << to_iso(time, 3);
+        EXPECT_EQ(make_instant(time, kept, {}), make_instant(time));
+    };
+    // Through leap seconds and year ends there and back, and from one to the next without going there.
+    for (const char* text :
+         {"1971-12-31T23:59:58Z", "1972-06-30T23:59:58Z", "2016-12-31T23:59:58Z", "1970-12-31T23:59:58Z",
+          "2000-02-28T23:59:58Z", "2100-12-31T23:59:58Z", "1858-11-17T00:00:00Z", "1900-01-01T00:00:02Z"}) {
+        UtcClockTime time = at(text);
+        for (const double step_s : {0.25, -0.25}) {
+            for (int step = 0; step < 20; ++step) {
+                expect_same(time);
+                time.advance(step_s);
+            }
+        }
+    }
+    for (int year = 9999; year > 1; year -= 13)
+        expect_same(UtcClockTime::from_civil({.year = year}).value());
 }
 
 }  // namespace

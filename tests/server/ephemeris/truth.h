@@ -1,7 +1,6 @@
 // What the ephemeris tests share: truth rows as instants, places and directions, and errors in arcseconds.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +10,7 @@
 
 #include "server/ephemeris/sky_state.h"
 #include "tests/csv.h"
+#include "tests/server/ephemeris/largest.h"
 
 namespace skyig::tests {
 
@@ -78,14 +78,14 @@ inline server::ephemeris::Body body_of(const CsvRow& row) {
     throw std::runtime_error("no body: " + name);
 }
 
-/// Largest and root mean square of what is added.
+/// Largest and root mean square of what is added. An error that is not finite makes the largest infinite.
 struct ErrorStatistics {
     double max = 0.0;
     double sum_of_squares = 0.0;
     std::size_t count = 0;
 
     void add(double error) {
-        max = std::max(max, std::abs(error));
+        raise(max, error);
         sum_of_squares += error * error;
         ++count;
     }

@@ -11,6 +11,7 @@
 
 #include "server/ephemeris/events/events.h"
 #include "tests/csv.h"
+#include "tests/server/ephemeris/largest.h"
 
 namespace skyig::server::ephemeris::events {
 namespace {
@@ -28,7 +29,7 @@ struct MinuteErrors {
 
     void add(int year, double error_s) {
         double& max_s = year <= kLastMeasuredYear ? max_measured_s : max_later_s;
-        max_s = std::max(max_s, std::abs(error_s));
+        tests::raise(max_s, error_s);
         ++count;
     }
     void expect_within_a_minute(const char* what) const {

@@ -11,6 +11,7 @@
 #include "server/ephemeris/events/event_sky.h"
 #include "server/ephemeris/events/events.h"
 #include "server/ephemeris/places.h"
+#include "tests/server/ephemeris/largest.h"
 
 namespace skyig::server::ephemeris::events {
 namespace {
@@ -159,8 +160,8 @@ void expect_close_to_series(Knots knots, const char* what, double moon_bound_arc
     for (double seconds = 17.0; seconds < 30.0 * 86400.0; seconds += 9907.0) {
         const SkyState close = sky.state_at(seconds);
         const SkyState exact = compute_sky_state(sky.instant_at(seconds), site);
-        moon_rad = std::max(moon_rad, angle_between_rad(close.moon.direction_enu, exact.moon.direction_enu));
-        sun_rad = std::max(sun_rad, angle_between_rad(close.sun.direction_enu, exact.sun.direction_enu));
+        tests::raise(moon_rad, angle_between_rad(close.moon.direction_enu, exact.moon.direction_enu));
+        tests::raise(sun_rad, angle_between_rad(close.sun.direction_enu, exact.sun.direction_enu));
     }
     std::printf("%s: Moon %.4f, Sun %.4f arcsec\n", what, moon_rad / kRadPerDeg * 3600.0,
                 sun_rad / kRadPerDeg * 3600.0);

@@ -1,4 +1,5 @@
 #include "server/ephemeris/theory/sine_series.h"
+#include "tests/server/ephemeris/largest.h"
 
 #include <gtest/gtest.h>
 
@@ -32,13 +33,13 @@ TEST(SineSeries, SineAgreesWithTheLibraryAllAroundTheCircleAndAtHalfTurns) {
     double greatest = 0.0;
     for (int i = -4000; i <= 4000; ++i) {
         const double phase_rad = i * (kPi / 1000.0);
-        greatest = std::max(greatest, std::abs(sine_of(phase_rad) - std::sin(phase_rad)));
+        skyig::tests::raise(greatest, sine_of(phase_rad) - std::sin(phase_rad));
     }
     for (const double turns : {0.25, 0.5, 0.75, 1.0, 12345.25, 12345.5}) {
         for (const double side : {-1e-9, 0.0, 1e-9}) {
             const double phase_rad = (turns + side) * 2.0 * kPi;
-            greatest = std::max(greatest, std::abs(sine_of(phase_rad) - std::sin(phase_rad)));
-            greatest = std::max(greatest, std::abs(sine_of(-phase_rad) + std::sin(phase_rad)));
+            skyig::tests::raise(greatest, sine_of(phase_rad) - std::sin(phase_rad));
+            skyig::tests::raise(greatest, sine_of(-phase_rad) + std::sin(phase_rad));
         }
     }
     std::printf("sine: error at most %.2g\n", greatest);
@@ -51,7 +52,7 @@ TEST(SineSeries, SineKeepsItsDigitsAtPhasesOfAMillionTurns) {
     double greatest = 0.0;
     for (int i = 0; i < 20000; ++i) {
         const double phase_rad = phase(random);
-        greatest = std::max(greatest, std::abs(sine_of(phase_rad) - std::sin(phase_rad)));
+        skyig::tests::raise(greatest, sine_of(phase_rad) - std::sin(phase_rad));
     }
     std::printf("sine, phases up to a million turns: error at most %.2g\n", greatest);
     EXPECT_LE(greatest, 5e-16);
@@ -89,8 +90,8 @@ TEST(SineSeries, ValueAndRateAreThoseOfTheFormula) {
             }
         }
         const Varying sum = sum_of_sines<5>(pairs, t);
-        greatest = std::max(greatest, std::abs(sum.value - value));
-        greatest_rate = std::max(greatest_rate, std::abs(sum.rate - rate));
+        skyig::tests::raise(greatest, sum.value - value);
+        skyig::tests::raise(greatest_rate, sum.rate - rate);
     }
     std::printf("400 terms of amplitude up to 1: value within %.2g, rate within %.2g of 8e4\n", greatest,
                 greatest_rate);

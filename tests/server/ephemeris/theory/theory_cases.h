@@ -1,7 +1,6 @@
 // What the tests of the theories share: dates, angles, and each theory as a function of the date alone.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -13,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include "server/ephemeris/theory/theory.h"
+#include "tests/server/ephemeris/largest.h"
 
 namespace skyig::tests {
 
@@ -68,7 +68,7 @@ inline std::vector<TheoryCase> all_theories() {
 class ErrorTally {
   public:
     void add(double error) {
-        greatest_ = std::max(greatest_, error);
+        raise(greatest_, error);
         sum_of_squares_ += error * error;
         ++count_;
     }

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/server/ephemeris/largest.h"
 #include "tests/server/ephemeris/theory/theory_cases.h"
 #include "tests/support/allocation_count.h"
 
@@ -88,7 +89,7 @@ TEST(Theory, BarycentreIsWithinTwoSolarRadiiOfTheSun) {
         const theory::EarthMotion earth = theory::earth_epv00(tt);
         const double distance_km =
             glm::length(earth.heliocentric.position_km - earth.barycentric.position_km);
-        greatest_km = std::max(greatest_km, distance_km);
+        skyig::tests::raise(greatest_km, distance_km);
         const theory::EarthMotion almanac = theory::earth_almanac(tt);
         EXPECT_TRUE(same_bits(almanac.heliocentric, almanac.barycentric));
     }
@@ -128,7 +129,7 @@ TEST(Theory, BodiesStayNearTheirOrbitsAsFarAsTheTheoriesAreFollowed) {
         double greatest_km = 0.0;
         for (const JulianDate& tt : dates_1900_2100(100)) {
             least_km = std::min(least_km, glm::length(theory.at(tt).position_km));
-            greatest_km = std::max(greatest_km, glm::length(theory.at(tt).position_km));
+            skyig::tests::raise(greatest_km, glm::length(theory.at(tt).position_km));
         }
         for (int year = -4000; year <= 8000; year += 37) {
             const JulianDate tt{.day = 2451545.0 + std::floor(365.25 * (year - 2000)), .fraction = 0.0};
@@ -161,7 +162,7 @@ TEST(Theory, HowADateIsSplitInTwoDoesNotMatter) {
             const double apart_s =
                 glm::length(at.position_km - split.position_km) / glm::length(at.velocity_km_s);
             EXPECT_LE(apart_s, 1e-5) << theory.name;
-            greatest_s = std::max(greatest_s, apart_s);
+            skyig::tests::raise(greatest_s, apart_s);
         }
     }
     std::printf("two ways to write a date: places at most %.2g s apart\n", greatest_s);

@@ -1,22 +1,19 @@
 // The bodies as they are typed.
 #pragma once
 
-#include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "clients/letters.h"
 #include "server/ephemeris/bodies.h"
 
-namespace skyig::clients::ephem {
+namespace skyig::clients {
 
 /// In capitals or not.
 [[nodiscard]] inline std::optional<server::ephemeris::Body> parse_body(std::string_view text) {
-    const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
     for (const server::ephemeris::Body body : server::ephemeris::kBodies) {
-        const std::string_view name = name_of(body);
-        if (std::equal(text.begin(), text.end(), name.begin(), name.end(), same)) return body;
+        if (same_letters(text, name_of(body))) return body;
     }
     return std::nullopt;
 }
@@ -29,4 +26,4 @@ namespace skyig::clients::ephem {
     return list;
 }
 
-}  // namespace skyig::clients::ephem
+}  // namespace skyig::clients

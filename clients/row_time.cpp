@@ -1,12 +1,12 @@
-#include "clients/skyig/ephem/row_time.h"
+#include "clients/row_time.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-#include "clients/skyig/ephem/csv.h"
+#include "clients/csv.h"
 
-namespace skyig::clients::ephem {
+namespace skyig::clients {
 
 using server::ephemeris::Instant;
 using server::ephemeris::JulianDate;
@@ -91,4 +91,4 @@ std::string_view example_of(TimeForm form) noexcept {
     return {};
 }
 
-}  // namespace skyig::clients::ephem
+}  // namespace skyig::clients

@@ -7,7 +7,7 @@
 
 #include "server/ephemeris/time.h"
 
-namespace skyig::clients::ephem {
+namespace skyig::clients {
 
 /// How a time column is written.
 enum class TimeForm : std::uint8_t {
@@ -18,10 +18,10 @@ enum class TimeForm : std::uint8_t {
 
 /// What a row may say of time besides its time column.
 struct RowOffsets {
-    std::optional<double> tt_minus_utc_s;
-    std::optional<double> ut1_minus_utc_s;
+    std::optional<double> tt_minus_utc_s = std::nullopt;
+    std::optional<double> ut1_minus_utc_s = std::nullopt;
     /// TT - UT1; with kTtCivil.
-    std::optional<double> delta_t_s;
+    std::optional<double> delta_t_s = std::nullopt;
 };
 
 /// The first and the last year a row may name.
@@ -43,4 +43,4 @@ inline constexpr int kLastYear = 2100;
 /// An example of the form, for error lines.
 [[nodiscard]] std::string_view example_of(TimeForm form) noexcept;
 
-}  // namespace skyig::clients::ephem
+}  // namespace skyig::clients

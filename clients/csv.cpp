@@ -1,9 +1,12 @@
-#include "clients/skyig/ephem/csv.h"
+#include "clients/csv.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <ios>
+#include <utility>
 
-namespace skyig::clients::ephem {
+namespace skyig::clients {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -55,22 +58,46 @@ bool split(std::string_view text, std::vector<std::string>& fields) {
 
 }  // namespace
 
+/// Piece by piece, so that a line without end takes no memory without end.
+bool CsvReader::read_line(CsvRecord& record) {
+    constexpr std::size_t kPieceBytes = 4096;
+    std::array<char, kPieceBytes> piece;  // NOLINT: what is not read into is not looked at
+    for (bool any = false;; any = true) {
+        stream_.getline(piece.data(), static_cast<std::streamsize>(piece.size()));
+        if (stream_.bad()) return false;
+        const bool has_line_end = stream_.good();
+        const auto count = static_cast<std::size_t>(stream_.gcount()) - (has_line_end ? 1U : 0U);
+        if (stream_.eof() && count == 0) return any;
+        record.too_long = record.too_long || record.text.size() + count > kMostLineBytes;
+        if (record.too_long) {
+            record.text.clear();
+        } else {
+            record.text.append(piece.data(), count);
+        }
+        if (!stream_.fail()) return true;
+        // The piece is full and the line goes on.
+        stream_.clear();
+    }
+}
+
 std::optional<CsvRecord> CsvReader::next() {
-    for (std::string text; std::getline(stream_, text);) {
-        ++line_;
-        if (line_ == 1 && text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+    while (true) {
         CsvRecord record;
+        if (!read_line(record)) return std::nullopt;
+        ++line_;
         record.line = line_;
-        if (text.ends_with('\r')) {
-            text.pop_back();
+        if (record.too_long) return record;
+        if (line_ == 1 && record.text.starts_with(kByteOrderMark))
+            record.text.erase(0, kByteOrderMark.size());
+        if (record.text.ends_with('\r')) {
+            record.text.pop_back();
             record.line_end = "\r\n";
         }
-        if (trimmed(text).empty() || text.front() == '#') continue;
-        record.text = std::move(text);
+        const std::string_view content = trimmed(record.text);
+        if (content.empty() || content.front() == '#') continue;
         record.well_formed = split(record.text, record.fields);
         return record;
     }
-    return std::nullopt;
 }
 
 std::optional<double> parse_number(std::string_view text) noexcept {
@@ -83,4 +110,4 @@ std::optional<double> parse_number(std::string_view text) noexcept {
     return value;
 }
 
-}  // namespace skyig::clients::ephem
+}  // namespace skyig::clients

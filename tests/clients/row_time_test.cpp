@@ -1,11 +1,11 @@
 // Moments of rows: exact Julian dates, offsets that come before the tables, leap seconds, TT.
-#include "clients/skyig/ephem/row_time.h"
+#include "clients/row_time.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace skyig::clients::ephem {
+namespace skyig::clients {
 namespace {
 
 using server::ephemeris::Instant;
@@ -74,4 +74,4 @@ TEST(RowTime, YearsAreThoseTheTheoriesKnow) {
 }
 
 }  // namespace
-}  // namespace skyig::clients::ephem
+}  // namespace skyig::clients
