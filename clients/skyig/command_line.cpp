@@ -333,18 +333,6 @@ const char* unknown_verb(int argc, const char* const* argv) {
     return known ? nullptr : argv[1];
 }
 
-void require_one_body(const EphemOptions& options) {
-    if (!options.batch_path.empty() && options.bodies.size() > 1)
-        throw CLI::ValidationError("--body", "a table takes one body (or none, and a column 'body')");
-}
-
-std::string usage_error(const char* what, const char* verb) {
-    const std::string_view known =
-        std::find(kVerbs.begin(), kVerbs.end(), std::string_view(verb)) != kVerbs.end() ? verb : "";
-    return known.empty() ? fmt::format("skyig: {} (skyig --help tells the verbs)\n", what)
-                         : fmt::format("skyig {0}: {1} (skyig {0} --help tells the options)\n", known, what);
-}
-
 /// The options of every verb; one verb's are given.
 struct Verbs {
     HostOptions host;
@@ -373,8 +361,14 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
                verbs.record);
 }
 
+void require_one_body(const EphemOptions& options) {
+    if (!options.batch_path.empty() && options.bodies.size() > 1)
+        throw CLI::ValidationError("--body", "a table takes one body (or none, and a column 'body')");
+}
+
 void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     verbs.host.big_endian = verbs.order == "big";
+    require_one_body(verbs.ephem);
     verbs.ephem.eye_horizon = verbs.horizon == "eye";
     if (app.got_subcommand("host")) invocation.options = verbs.host;
     if (app.got_subcommand("shot")) invocation.options = verbs.shot;
@@ -383,6 +377,13 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     if (app.got_subcommand("decode")) invocation.options = verbs.decode;
     if (app.got_subcommand("replay")) invocation.options = verbs.replay;
     if (app.got_subcommand("record")) invocation.options = verbs.record;
+}
+
+std::string usage_error(const char* what, const char* verb) {
+    const std::string_view known =
+        std::find(kVerbs.begin(), kVerbs.end(), std::string_view(verb)) != kVerbs.end() ? verb : "";
+    return known.empty() ? fmt::format("skyig: {} (skyig --help tells the verbs)\n", what)
+                         : fmt::format("skyig {0}: {1} (skyig {0} --help tells the options)\n", known, what);
 }
 
 }  // namespace
@@ -405,7 +406,6 @@ Invocation read_command_line(int argc, const char* const* argv) {
     add_verbs(app, verbs);
     try {
         app.parse(argc, argv);
-        require_one_body(verbs.ephem);
         take_verb(app, verbs, invocation);
     } catch (const CLI::CallForHelp&) {
         const std::vector<CLI::App*> asked = app.get_subcommands();

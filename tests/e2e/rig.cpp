@@ -43,7 +43,7 @@ std::string events_of_frames(const std::string& events) {
     std::istringstream in(events);
     std::string out;
     for (std::string line; std::getline(in, line);)
-        if (!line.starts_with("0 ")) out += line + '\n';
+        if (!line.starts_with("0 ") && line.find(" recorded with ") == std::string::npos) out += line + '\n';
     return out;
 }
 

@@ -38,7 +38,8 @@ struct Replayed {
 [[nodiscard]] Replayed replay(const std::string& daemon, const std::string& config_path,
                               const std::string& recording, const std::vector<std::string>& more = {});
 
-/// Lines of `events` from frame 1 on: what was said before depends on machine and paths.
+/// Lines of `events` from frame 1 on, without that of another renderer: what does not depend on machine and
+/// paths.
 [[nodiscard]] std::string events_of_frames(const std::string& events);
 
 [[nodiscard]] long line_count(const std::string& text);
