@@ -82,8 +82,7 @@ bool FrameLoop::run_frame() {
 }
 
 void FrameLoop::answer_host(const FramePacer::Slot& slot) {
-    const std::span<const std::byte> message =
-        answers_.open_frame(parts_.world, slot.start_ns, slot.late);
+    const std::span<const std::byte> message = answers_.open_frame(parts_.world, slot.start_ns, slot.late);
     parts_.wire.open_frame({frame_number_, slot.slots, parts_.clock.utc_ns()}, message);
     const auto destination = answers_.destination(parts_.world.control_source(), parts_.world.control_link());
     if (!destination) return;
