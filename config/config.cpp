@@ -80,8 +80,17 @@ std::string to_text(const ConfigError& error) {
 
 std::string describe(const Config& config) {
     const std::size_t count = config.channels.size();
-    return fmt::format("ok: {} channel{}, CIGI 3.3+4.0 on udp {}:{}, {}", count, count == 1 ? "" : "s",
-                       config.host.listen.address, config.host.listen.port, output_name(config.output.kind));
+    std::string heard = config.host.enabled ? fmt::format("CIGI 3.3+4.0 on udp {}:{}",
+                                                          config.host.listen.address, config.host.listen.port)
+                                            : std::string("no host");
+    for (const Source& source : config.sources) {
+        const bool bus = source.kind == SourceKind::kCanAerospace;
+        heard +=
+            bus ? fmt::format(", {} on {}", source.name, source.interface)
+                : fmt::format(", {} on udp {}:{}", source.name, source.listen.address, source.listen.port);
+    }
+    return fmt::format("ok: {} channel{}, {}, {}", count, count == 1 ? "" : "s", heard,
+                       output_name(config.output.kind));
 }
 
 }  // namespace skyig::config

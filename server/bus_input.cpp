@@ -70,6 +70,18 @@ can::IdentifierMap identifier_map(const config::Source& source) {
     return map;
 }
 
+std::string identifier_fault(const config::Config& config) {
+    for (const config::Source& source : config.sources) {
+        if (source.kind != config::SourceKind::kCanAerospace) continue;
+        try {
+            (void)identifier_map(source);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+    }
+    return {};
+}
+
 BusInput::BusInput(std::size_t source, const can::IdentifierMap& map, world::World& world)
     : source_(source), world_(world), receiver_(map) {}
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "config/config.h"
 #include "protocol/can_frame.h"
@@ -17,6 +18,9 @@ namespace skyig::server {
 /// "gps_latitude". \throws std::runtime_error with one line for a name that does not exist or an identifier
 /// that cannot be used
 [[nodiscard]] protocol::canaerospace::IdentifierMap identifier_map(const config::Source& source);
+
+/// What identifier_map() has against any of the sources, one line; empty if nothing.
+[[nodiscard]] std::string identifier_fault(const config::Config& config);
 
 /// A place is reported when its latitude and longitude have both come anew, an attitude when all three angles
 /// have: at the receive time of the last, so that no picture mixes old and new. Of several sources of one

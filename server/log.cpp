@@ -40,7 +40,7 @@ void Log::write(Severity severity, fmt::string_view format, fmt::format_args arg
     emit(severity, {line.data(), line.size()});
 }
 
-void Log::write_limited(std::string_view key, double every_s, Severity severity, fmt::string_view format,
+void Log::write_limited(const LimitKey& key, double every_s, Severity severity, fmt::string_view format,
                         fmt::format_args args) {
     if (severity > threshold_) return;
     const std::int64_t now_ns = clock_.monotonic_ns();
@@ -61,7 +61,7 @@ void Log::write_limited(std::string_view key, double every_s, Severity severity,
     emit(severity, {line.data(), line.size()});
 }
 
-Log::Limit& Log::find_limit(std::string_view key, std::int64_t now_ns, bool& first) {
+Log::Limit& Log::find_limit(const LimitKey& key, std::int64_t now_ns, bool& first) {
     for (std::size_t i = 0; i < limit_count_; ++i) {
         if (limits_[i].key == key) return limits_[i];
     }

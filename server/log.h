@@ -20,6 +20,18 @@ namespace skyig::server {
 /// syslog priorities
 enum class Severity { kError = 3, kWarning = 4, kNotice = 5, kInfo = 6, kDebug = 7 };
 
+/// What a limited line is about: its kind, and which of several it is. The text must be a literal (it is
+/// kept, not copied).
+struct LimitKey {
+    LimitKey(const char* literal) noexcept : text(literal) {}
+    LimitKey(const char* literal, std::size_t number) noexcept : text(literal), of(number) {}
+
+    std::string_view text;
+    std::size_t of = 0;
+
+    friend bool operator==(const LimitKey&, const LimitKey&) = default;
+};
+
 class Log {
   public:
     /// Receives whole lines without prefix and line end.
@@ -50,28 +62,29 @@ class Log {
         write(Severity::kInfo, fmt::string_view(format), fmt::make_format_args(args...));
     }
 
-    /// At most one line of this key each `every_s` seconds; the next one says how many were left out. `key`
-    /// must be a literal (it is kept, not copied). Keys beyond kMaxKeys share one limit.
+    /// At most one line of this key each `every_s` seconds; the next one says how many were left out. Keys
+    /// beyond kMaxKeys share one limit.
     template <typename... Args>
-    void limited(std::string_view key, double every_s, Severity severity, fmt::format_string<Args...> format,
+    void limited(const LimitKey& key, double every_s, Severity severity, fmt::format_string<Args...> format,
                  Args&&... args) {
         write_limited(key, every_s, severity, fmt::string_view(format), fmt::make_format_args(args...));
     }
 
-    static constexpr std::size_t kMaxKeys = 64;
+    /// A dozen kinds, a few of them for each of 17 sources.
+    static constexpr std::size_t kMaxKeys = 160;
 
   private:
     struct Limit {
-        std::string_view key;
+        LimitKey key{""};
         std::int64_t last_ns = 0;
         std::uint64_t suppressed = 0;
     };
 
     void write(Severity severity, fmt::string_view format, fmt::format_args args);
-    void write_limited(std::string_view key, double every_s, Severity severity, fmt::string_view format,
+    void write_limited(const LimitKey& key, double every_s, Severity severity, fmt::string_view format,
                        fmt::format_args args);
     void emit(Severity severity, std::string_view line);
-    Limit& find_limit(std::string_view key, std::int64_t now_ns, bool& first);
+    Limit& find_limit(const LimitKey& key, std::int64_t now_ns, bool& first);
 
     const Clock& clock_;
     Severity threshold_;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "config/config.h"
+#include "server/bus_input.h"
 #include "server/daemon.h"
 #include "server/from_config.h"
 
@@ -88,6 +89,10 @@ int run(int argc, char** argv) {
         skyig::server::load_earth_orientation(*loaded.config, options->config_path);
     if (!orientation) {
         fmt::print(stderr, "{}\n", orientation.error);
+        return kWrongUsage;
+    }
+    if (const std::string fault = skyig::server::identifier_fault(*loaded.config); !fault.empty()) {
+        fmt::print(stderr, "{}: {}\n", options->config_path, fault);
         return kWrongUsage;
     }
     if (options->check) {

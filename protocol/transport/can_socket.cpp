@@ -6,7 +6,6 @@
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 
@@ -18,6 +17,7 @@
 #include <ctime>
 #include <thread>
 
+#include "protocol/transport/event_signal.h"
 #include "protocol/transport/file_descriptor.h"
 
 namespace skyig::protocol::transport {
@@ -32,12 +32,6 @@ constexpr std::uint8_t kFdFlags = 0x07;
 /// Who sees a count sees the state that was set before it.
 void add(std::atomic<std::uint64_t>& counter, std::uint64_t amount = 1) noexcept {
     counter.fetch_add(amount, std::memory_order_release);
-}
-
-void signal(const FileDescriptor& event) noexcept {
-    const std::uint64_t one = 1;
-    // Fails only when the counter is full, that is, when it is signalled already.
-    [[maybe_unused]] const ssize_t written = ::write(event.get(), &one, sizeof(one));
 }
 
 ifreq request_for(const std::string& interface) noexcept {
@@ -209,15 +203,13 @@ struct CanReceiver::State {
           bus(wanted.bus),
           filters(to_kernel(wanted.filters)),
           retry_ms(static_cast<int>(std::max<std::int64_t>(1, wanted.retry.count()))),
-          stop(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
-          ready(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
           ring(wanted.ring_frames) {}
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     State(State&&) = delete;
     State& operator=(State&&) = delete;
     ~State() {
-        signal(stop);
+        stop.raise();
         if (thread.joinable()) thread.join();
     }
 
@@ -297,7 +289,7 @@ struct CanReceiver::State {
             }
             for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
                 take(i);
-            signal(ready);
+            ready.raise();
             // Frames may be older than the news that the interface is down; later ones tell that it is up.
             if (current() == CanState::kDown) look_at_interface();
             if (!socket || static_cast<std::size_t>(count) < kBatch) return;
@@ -320,7 +312,7 @@ struct CanReceiver::State {
     void run() noexcept {
         for (;;) {
             // A missing socket is passed over by poll().
-            std::array<pollfd, 2> watched{{{stop.get(), POLLIN, 0}, {socket.get(), POLLIN, 0}}};
+            std::array<pollfd, 2> watched{{stop.watched(), {socket.get(), POLLIN, 0}}};
             const int found =
                 ::poll(watched.data(), watched.size(), current() == CanState::kUp ? -1 : retry_ms);
             if (found < 0) continue;
@@ -339,8 +331,8 @@ struct CanReceiver::State {
     std::uint8_t bus;
     std::vector<can_filter> filters;
     int retry_ms;
-    FileDescriptor stop;
-    FileDescriptor ready;
+    EventSignal stop;
+    EventSignal ready;
     CanRing ring;
 
     // Of the thread alone once it runs.
@@ -384,14 +376,7 @@ CanRing& CanReceiver::ring() noexcept {
 }
 
 bool CanReceiver::wait(std::chrono::milliseconds timeout) noexcept {
-    // The event is cleared before the ring is looked at: what is pushed after the look signals again.
-    pollfd watched{state_->ready.get(), POLLIN, 0};
-    std::uint64_t signals = 0;
-    [[maybe_unused]] ssize_t cleared = ::read(state_->ready.get(), &signals, sizeof(signals));
-    if (!state_->ring.empty()) return true;
-    ::poll(&watched, 1, static_cast<int>(timeout.count()));
-    cleared = ::read(state_->ready.get(), &signals, sizeof(signals));
-    return !state_->ring.empty();
+    return state_->ready.wait(timeout, [this] { return !state_->ring.empty(); });
 }
 
 const std::string& CanReceiver::interface() const noexcept {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -15,6 +14,8 @@
 #include <ctime>
 #include <string_view>
 #include <thread>
+
+#include "protocol/transport/event_signal.h"
 
 namespace skyig::protocol::transport {
 namespace {
@@ -79,12 +80,6 @@ std::int64_t arrival_of(msghdr& header) noexcept {
     return to_ns(now);
 }
 
-void signal(const FileDescriptor& event) noexcept {
-    const std::uint64_t one = 1;
-    // Fails only when the counter is full, that is, when it is signalled already.
-    [[maybe_unused]] const ssize_t written = ::write(event.get(), &one, sizeof(one));
-}
-
 void add(std::atomic<std::uint64_t>& counter, std::uint64_t amount) noexcept {
     counter.fetch_add(amount, std::memory_order_relaxed);
 }
@@ -132,18 +127,13 @@ class ReceiveBatch {
 
 struct UdpReceiver::State {
     State(FileDescriptor bound, const Endpoint& bound_to, const UdpOptions& options)
-        : socket(std::move(bound)),
-          stop(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
-          ready(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
-          local(bound_to),
-          allowed(options.allowed),
-          ring(options.ring_bytes) {}
+        : socket(std::move(bound)), local(bound_to), allowed(options.allowed), ring(options.ring_bytes) {}
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     State(State&&) = delete;
     State& operator=(State&&) = delete;
     ~State() {
-        signal(stop);
+        stop.raise();
         if (thread.joinable()) thread.join();
     }
 
@@ -179,14 +169,14 @@ struct UdpReceiver::State {
             }
             for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
                 take(batch.datagram(i));
-            signal(ready);
+            ready.raise();
             if (static_cast<std::size_t>(count) < kBatch) return true;
         }
     }
 
     void run() noexcept {
         constexpr int kPauseAfterErrorMs = 10;
-        std::array<pollfd, 2> watched{{{stop.get(), POLLIN, 0}, {socket.get(), POLLIN, 0}}};
+        std::array<pollfd, 2> watched{{stop.watched(), {socket.get(), POLLIN, 0}}};
         for (;;) {
             if (::poll(watched.data(), watched.size(), -1) < 0 && errno != EINTR) add(errors, 1);
             if ((watched[0].revents & POLLIN) != 0) return;
@@ -196,8 +186,8 @@ struct UdpReceiver::State {
     }
 
     FileDescriptor socket;
-    FileDescriptor stop;
-    FileDescriptor ready;
+    EventSignal stop;
+    EventSignal ready;
     Endpoint local;
     std::vector<Ipv4> allowed;
     DatagramRing ring;
@@ -256,14 +246,7 @@ DatagramRing& UdpReceiver::ring() noexcept {
 }
 
 bool UdpReceiver::wait(std::chrono::milliseconds timeout) noexcept {
-    // The event is cleared before the ring is looked at: what is pushed after the look signals again.
-    pollfd watched{state_->ready.get(), POLLIN, 0};
-    std::uint64_t signals = 0;
-    [[maybe_unused]] ssize_t cleared = ::read(state_->ready.get(), &signals, sizeof(signals));
-    if (!state_->ring.empty()) return true;
-    ::poll(&watched, 1, static_cast<int>(timeout.count()));
-    cleared = ::read(state_->ready.get(), &signals, sizeof(signals));
-    return !state_->ring.empty();
+    return state_->ready.wait(timeout, [this] { return !state_->ring.empty(); });
 }
 
 Endpoint UdpReceiver::local() const noexcept {

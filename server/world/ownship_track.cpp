@@ -65,12 +65,16 @@ void OwnshipTrack::reset(const Pose& pose) noexcept {
 void OwnshipTrack::report_position(const ephemeris::Geodetic& position, double arrival_s,
                                    std::optional<double> sender_s) noexcept {
     const glm::dvec3 ecef_m = ecef_of(position);
+    if (velocity_told_s_ && arrival_s - *velocity_told_s_ > kLongest_s) {
+        velocity_told_s_.reset();
+        velocity_ecef_m_s_.reset();
+    }
     if (!sender_s) {
         position_offset_.reset();
-        if (!velocity_told_) velocity_ecef_m_s_.reset();
+        if (!velocity_told_s_) velocity_ecef_m_s_.reset();
     } else if (position_offset_.learn(arrival_s, *sender_s) && position_sender_s_) {
-        if (!velocity_told_) learn_velocity(ecef_m, *sender_s - *position_sender_s_);
-    } else if (!velocity_told_) {
+        if (!velocity_told_s_) learn_velocity(ecef_m, *sender_s - *position_sender_s_);
+    } else if (!velocity_told_s_) {
         velocity_ecef_m_s_.reset();
     }
     pose_.position = position;
@@ -88,8 +92,8 @@ void OwnshipTrack::learn_velocity(const glm::dvec3& ecef_m, double step_s) noexc
     if (glm::length(velocity) <= kFastest_m_s) velocity_ecef_m_s_ = velocity;
 }
 
-void OwnshipTrack::report_velocity(const glm::dvec3& velocity_enu_m_s) noexcept {
-    velocity_told_ = true;
+void OwnshipTrack::report_velocity(const glm::dvec3& velocity_enu_m_s, double arrival_s) noexcept {
+    velocity_told_s_ = arrival_s;
     velocity_ecef_m_s_ = ecef_from_enu(pose_.position, velocity_enu_m_s);
 }
 

@@ -53,8 +53,9 @@ class OwnshipTrack {
                          std::optional<double> sender_s) noexcept;
     void report_attitude(double yaw_deg, double pitch_deg, double roll_deg, double arrival_s,
                          std::optional<double> sender_s) noexcept;
-    /// East, north, up, metres a second: takes the place of what successive positions say from now on.
-    void report_velocity(const glm::dvec3& velocity_enu_m_s) noexcept;
+    /// East, north, up, metres a second: takes the place of what successive positions say, until none has
+    /// come for kLongest_s.
+    void report_velocity(const glm::dvec3& velocity_enu_m_s, double arrival_s) noexcept;
 
     /// The pose at the world's time `now_s`; bit for bit the reported one where nothing is to be carried on.
     [[nodiscard]] Pose at(double now_s) const noexcept;
@@ -78,7 +79,8 @@ class OwnshipTrack {
     std::optional<double> position_sender_s_;
     SenderOffset position_offset_;
     std::optional<glm::dvec3> velocity_ecef_m_s_;
-    bool velocity_told_ = false;
+    /// When it was told, by the world's clock; nothing: it is learned.
+    std::optional<double> velocity_told_s_;
 
     glm::dquat ned_from_body_{1.0, 0.0, 0.0, 0.0};
     double attitude_s_ = 0.0;

@@ -156,11 +156,12 @@ bool World::claim_peer(const cigi::PacketInfo& info) {
     if (spoken_for && from_ != peer.endpoint) return false;
     const std::string& name = authority_.rule(source_).name;
     if (before == LinkState::kLost && from_ == peer.endpoint) {
-        log_.limited("host back", kRepeatAfter_s, Severity::kNotice, "{} {} is back after {:.1f} s", name,
-                     to_string(from_), authority_.silent_s(source_));
+        log_.limited({"host back", source_}, kRepeatAfter_s, Severity::kNotice,
+                     "{} {} is back after {:.1f} s", name, to_string(from_), authority_.silent_s(source_));
     } else if (!spoken_for) {
-        log_.limited("host appeared", kRepeatAfter_s, Severity::kNotice, "{} {} speaks CIGI {}, {}", name,
-                     to_string(from_), version_name(info.version), order_name(info.order));
+        log_.limited({"host appeared", source_}, kRepeatAfter_s, Severity::kNotice,
+                     "{} {} speaks CIGI {}, {}", name, to_string(from_), version_name(info.version),
+                     order_name(info.order));
         peer.second_host_said = false;
     }
     if (!spoken_for) {
@@ -188,7 +189,7 @@ void World::say_second_host() {
 void World::note_events(const cigi::SessionEvents& events) {
     counters_.frames_missed += events.frames_missed;
     if (events.host_restarted) {
-        log_.limited("host restarted", kRepeatAfter_s, Severity::kNotice,
+        log_.limited({"host restarted", source_}, kRepeatAfter_s, Severity::kNotice,
                      "host {} began anew at its frame {}", to_string(from_),
                      session_.last_host_frame_number());
     }
@@ -396,10 +397,13 @@ void World::supervise(double step_s) {
         if (change.to != LinkState::kLost) return;
         raise(Event::kSourceLost, static_cast<std::uint32_t>(change.source),
               static_cast<std::uint32_t>(authority_.losses(change.source)));
-        const std::string& name = authority_.rule(change.source).name;
-        log_.limited("host lost", kRepeatAfter_s, Severity::kWarning,
-                     "{} {} lost: silent for {:.1f} s; the picture stays as it was, its clock goes on", name,
-                     to_string(peers_[change.source].endpoint), authority_.silent_s(change.source));
+        const SourceRule& rule = authority_.rule(change.source);
+        const std::string who = rule.kind == config::SourceKind::kCigi
+                                    ? rule.name + ' ' + to_string(peers_[change.source].endpoint)
+                                    : rule.name;
+        log_.limited({"host lost", change.source}, kRepeatAfter_s, Severity::kWarning,
+                     "{} lost: silent for {:.1f} s; the picture stays as it was, its clock goes on", who,
+                     authority_.silent_s(change.source));
     });
 }
 

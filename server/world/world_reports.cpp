@@ -25,8 +25,8 @@ void World::heard(std::size_t source) {
     const char* const what = change->from == LinkState::kWaiting ? "is heard" : "is back";
     if (change->from == LinkState::kStale) return;
     raise(Event::kSourceHeard, static_cast<std::uint32_t>(source), 0);
-    log_.limited("source heard", kRepeatAfter_s, Severity::kNotice, "{} {}", authority_.rule(source).name,
-                 what);
+    log_.limited({"source heard", source}, kRepeatAfter_s, Severity::kNotice, "{} {}",
+                 authority_.rule(source).name, what);
 }
 
 bool World::listens(std::size_t source, config::Aspect aspect) noexcept {
@@ -53,7 +53,7 @@ void World::report(std::size_t source, const OwnshipReport& report) {
         track_.report_position(*report.position, elapsed_s_, report.sender_s);
         ownship_.placed_by_host = true;
     }
-    if (report.velocity_enu_m_s) track_.report_velocity(*report.velocity_enu_m_s);
+    if (report.velocity_enu_m_s) track_.report_velocity(*report.velocity_enu_m_s, elapsed_s_);
     if (!report.yaw_deg && !report.pitch_deg && !report.roll_deg) return;
     // What is told by one is carried on from the angles as they were told last, not as they are drawn.
     const Pose told = track_.told();

@@ -204,7 +204,9 @@ TEST(BusIdentifiers, UnknownNameAndDoubleUseAreToldInOneLine) {
     } catch (const std::runtime_error& error) {
         EXPECT_THAT(error.what(), HasSubstr("source bus: identifiers.lattitude: no parameter has this name"));
     }
+    EXPECT_THAT(identifier_fault(config), HasSubstr("identifiers.lattitude"));
     config.sources[0].identifiers = {{"gps_latitude", 1037}};
+    EXPECT_THAT(identifier_fault(config), HasSubstr("GPS longitude"));
     EXPECT_THROW((void)identifier_map(config.sources[0]), std::runtime_error);
 }
 

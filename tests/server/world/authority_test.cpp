@@ -197,6 +197,28 @@ TEST_F(TwoSources, HostGetsTheWeatherBackWhenTheInstructorIsLost) {
     EXPECT_EQ(bench_.lines_with("instructor 127.0.0.1:40002 lost"), 1U);
 }
 
+TEST_F(TwoSources, NewsOfEachSourceIsToldWhateverTheOtherDoes) {
+    bench_.send(kHostA, ownship(10.0));
+    bench_.source = 1;
+    bench_.send(kHostB, visibility(800.0F));
+    EXPECT_EQ(bench_.lines_with("host 127.0.0.1:40001 speaks CIGI"), 1U);
+    EXPECT_EQ(bench_.lines_with("instructor 127.0.0.1:40002 speaks CIGI"), 1U);
+    bench_.wait(3.0);
+    EXPECT_EQ(bench_.lines_with("host 127.0.0.1:40001 lost"), 1U);
+    EXPECT_EQ(bench_.lines_with("instructor 127.0.0.1:40002 lost"), 1U);
+}
+
+TEST(WorldWithoutControl, LosesASourceWithoutAnAddressByItsName) {
+    config::Config config = three_channels();
+    config::Source& bus = config.sources.emplace_back();
+    bus.name = "bus";
+    bus.kind = config::SourceKind::kCanAerospace;
+    HostBench bench(config);
+    bench.world.heard(1);
+    bench.wait(3.0);
+    EXPECT_EQ(bench.lines_with("bus lost: silent for"), 1U);
+}
+
 TEST(WorldWithoutControl, IsInOperationFromTheStart) {
     config::Config config = three_channels();
     config.host.enabled = false;

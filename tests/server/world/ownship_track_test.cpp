@@ -158,10 +158,20 @@ TEST(OwnshipTrack, PolesVerticalNoseAndWrapOfYawAreCrossedSmoothly) {
 TEST(OwnshipTrack, ToldVelocityCarriesReportsWithoutStamp) {
     OwnshipTrack track;
     track.report_position({0.0, 0.0, 100.0}, 10.0, std::nullopt);
-    track.report_velocity({111.31949, 0.0, 10.0});
+    track.report_velocity({111.31949, 0.0, 10.0}, 10.0);
     const Pose pose = track.at(10.5);
     EXPECT_NEAR(pose.position.longitude_deg, 0.0005, 2e-8);
     EXPECT_NEAR(pose.position.height_m, 105.0, 1e-3);
+}
+
+TEST(OwnshipTrack, VelocityThatIsNoLongerToldIsNoLongerUsed) {
+    OwnshipTrack track;
+    track.report_position({0.0, 0.0, 0.0}, 0.0, 0.0);
+    track.report_velocity({100.0, 0.0, 0.0}, 0.0);
+    // The craft stands; its velocity was told once and never again.
+    for (int i = 1; i <= 40; ++i)
+        track.report_position({0.0, 0.0, 0.0}, 0.05 * i, 0.05 * i);
+    EXPECT_EQ(track.at(2.04).position, (ephemeris::Geodetic{0.0, 0.0, 0.0}));
 }
 
 TEST(StampClock, DifferencesSurviveTheWrapAndABackwardStep) {
