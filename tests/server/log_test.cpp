@@ -99,16 +99,18 @@ TEST(Log, KeysDoNotLimitOneAnother) {
     EXPECT_THAT(kept.lines, ElementsAre("a", "b"));
 }
 
-TEST(Log, ManyKeysShareTheLastLimit) {
-    static const std::vector<std::string> keys = [] {
-        std::vector<std::string> made;
-        for (int i = 0; i < 200; ++i)
-            made.push_back(fmt::format("key {}", i));
-        return made;
-    }();
+TEST(Log, EachOfSeveralIsLimitedByItself) {
     Kept kept;
-    for (const std::string& key : keys)
-        kept.log.limited(key, 10.0, Severity::kWarning, "{}", key);
+    kept.log.limited({"host lost", 0}, 10.0, Severity::kWarning, "first");
+    kept.log.limited({"host lost", 1}, 10.0, Severity::kWarning, "second");
+    kept.log.limited({"host lost", 1}, 10.0, Severity::kWarning, "second");
+    EXPECT_THAT(kept.lines, ElementsAre("first", "second"));
+}
+
+TEST(Log, ManyKeysShareTheLastLimit) {
+    Kept kept;
+    for (std::size_t i = 0; i < Log::kMaxKeys + 40; ++i)
+        kept.log.limited({"key", i}, 10.0, Severity::kWarning, "{}", i);
     EXPECT_EQ(kept.lines.size(), Log::kMaxKeys);
 }
 
