@@ -30,6 +30,7 @@ function(skyig_test_headers TARGET)
     file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/test_pch.cpp CONTENT "")
     add_library(skyig_test_pch OBJECT ${CMAKE_BINARY_DIR}/test_pch.cpp)
     target_link_libraries(skyig_test_pch PRIVATE skyig_build glm::glm GTest::gtest GTest::gmock)
+    target_compile_options(skyig_test_pch PRIVATE ${SKYIG_TEST_OPTIMISATION})
     target_precompile_headers(skyig_test_pch PRIVATE
       <gmock/gmock.h> <gtest/gtest.h> <glm/glm.hpp>
       <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <map> <numbers> <optional> <random>
@@ -46,6 +47,13 @@ function(skyig_library NAME)
   target_link_libraries(${NAME} PUBLIC glm::glm ${ARG_DEPS} PRIVATE skyig_build ${ARG_PRIVATE_DEPS})
 endfunction()
 
+# What is tested is optimised, the tests' own code hardly: that is two thirds of what it costs to compile.
+if(SKYIG_SANITIZE)
+  set(SKYIG_TEST_OPTIMISATION -O0)
+elseif(CMAKE_BUILD_TYPE STREQUAL "Release")
+  set(SKYIG_TEST_OPTIMISATION -O1)
+endif()
+
 # skyig_test(NAME SOURCES a.cpp ... DEPS target ... [LABELS unit|gl|slow|net] [TIMEOUT s])
 # Every test program finds its data under SKYIG_TEST_DATA and what this clone may lack under
 # SKYIG_REFERENCE (absent on a lone clone: such a test says so and is skipped).
@@ -61,6 +69,7 @@ function(skyig_test NAME)
   add_executable(${NAME} ${ARG_SOURCES})
   target_include_directories(${NAME} PRIVATE ${CMAKE_SOURCE_DIR})
   target_link_libraries(${NAME} PRIVATE skyig_build ${ARG_DEPS} GTest::gtest_main GTest::gmock)
+  target_compile_options(${NAME} PRIVATE ${SKYIG_TEST_OPTIMISATION})
   skyig_test_headers(${NAME})
   target_compile_definitions(${NAME} PRIVATE
     SKYIG_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
