@@ -48,16 +48,7 @@ Dome::Dome() {
     rows_.resize(row_count);
     azimuths_rad_.resize(kColumns + 1);
     vertices_.resize(row_count * (kColumns + 1));
-    constexpr std::uint32_t kStride = kColumns + 1;
-    for (std::uint32_t row = 0; row + 1 < row_count; ++row) {
-        for (std::uint32_t column = 0; column < kColumns; ++column) {
-            const std::uint32_t corner = row * kStride + column;
-            for (const std::uint32_t index :
-                 {corner, corner + 1, corner + kStride, corner + kStride, corner + 1, corner + kStride + 1}) {
-                indices_.push_back(index);
-            }
-        }
-    }
+    directions_.resize(vertices_.size());
 }
 
 void Dome::lay_out(const DomeLayout& layout) {
@@ -91,9 +82,13 @@ void Dome::lay_out(const DomeLayout& layout) {
 
     std::size_t out = 0;
     for (const Row& row : rows_) {
-        for (const double azimuth : azimuths_rad_)
-            vertices_[out++].direction = glm::vec3{direction_of({row.elevation_rad, azimuth})};
+        for (const double azimuth : azimuths_rad_) {
+            directions_[out] = glm::vec3{direction_of({row.elevation_rad, azimuth})};
+            vertices_[out].direction = directions_[out];
+            ++out;
+        }
     }
+    patches_.bound(directions_);
 }
 
 void Dome::shade(const SkyLight& light, const shaders64::ToneParameters& tone) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "render/dome_patches.h"
 #include "render/shaders/shared.h"
 #include "render/sky_light.h"
 
@@ -55,7 +56,12 @@ class Dome {
     void shade(const SkyLight& light, const shaders64::ToneParameters& tone);
 
     [[nodiscard]] std::span<const DomeVertex> vertices() const noexcept { return vertices_; }
-    [[nodiscard]] std::span<const std::uint32_t> indices() const noexcept { return indices_; }
+    [[nodiscard]] std::span<const std::uint32_t> indices() const noexcept { return patches_.indices(); }
+    /// What of the indices a view needs; valid until the next call. \param clip_from_mesh  as the vertex
+    /// shader has it
+    [[nodiscard]] std::span<const IndexRange> visible(const glm::dmat4& clip_from_mesh) noexcept {
+        return patches_.visible(clip_from_mesh);
+    }
     [[nodiscard]] const DomeLayout& layout() const noexcept { return layout_; }
 
     /// Turns mesh axes about the vertical so that y points to `azimuth_rad`.
@@ -70,7 +76,8 @@ class Dome {
     std::vector<Row> rows_;
     std::vector<double> azimuths_rad_;
     std::vector<DomeVertex> vertices_;
-    std::vector<std::uint32_t> indices_;
+    DomePatches patches_{kSkyRows + kGroundRows - 1, kColumns};
+    std::vector<glm::vec3> directions_;
     DomeLayout layout_;
 };
 

@@ -109,7 +109,6 @@ struct Renderer::Impl {
             targets.emplace_back(channel.width_px, channel.height_px);
         dome_mesh.set_indices(dome.indices());
         dome_program.set(dome_program.uniform("u_dither_codes"), display.dither ? 1.0F : 0.0F);
-        dome_clip = dome_program.uniform("u_clip_from_mesh");
         gl::set_common_state();
     }
 
@@ -122,7 +121,8 @@ struct Renderer::Impl {
     gl::DebugLog log;
     std::vector<gl::Framebuffer> targets;
     gl::Program dome_program{"sky/dome.vert", "sky/dome.frag"};
-    int dome_clip = -1;
+    int dome_clip = dome_program.uniform("u_clip_from_mesh");
+    int dome_half_size = dome_program.uniform("u_half_size_px");
     Dome dome;
     gl::Mesh dome_mesh{{3, 3}, dome.vertices().size()};
     StarPass stars;
@@ -248,9 +248,13 @@ void Renderer::draw(std::size_t channel) {
     m.targets[channel].bind();
     gl::set_blend(gl::Blend::kReplace);
     m.dome_program.use();
-    m.dome_program.set(m.dome_clip,
-                       glm::mat4{clip_from_enu * glm::dmat4{Dome::enu_from_mesh(dome_azimuth_rad(m.light))}});
-    m.dome_mesh.draw_triangles();
+    const glm::dmat4 clip_from_mesh =
+        clip_from_enu * glm::dmat4{Dome::enu_from_mesh(dome_azimuth_rad(m.light))};
+    m.dome_program.set(m.dome_clip, glm::mat4{clip_from_mesh});
+    m.dome_program.set(m.dome_half_size,
+                       0.5F * glm::vec2{m.channels[channel].width_px, m.channels[channel].height_px});
+    for (const IndexRange& range : m.dome.visible(clip_from_mesh))
+        m.dome_mesh.draw_triangles(range.first, range.count);
 
     if (plan.needs(Pass::kStars)) {
         gl::set_blend(gl::Blend::kAdd);

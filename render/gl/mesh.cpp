@@ -36,15 +36,13 @@ Mesh::Mesh(Mesh&& other) noexcept
     : array_(std::exchange(other.array_, 0U)),
       vertices_(std::exchange(other.vertices_, 0U)),
       indices_(std::exchange(other.indices_, 0U)),
-      capacity_bytes_(other.capacity_bytes_),
-      index_count_(other.index_count_) {}
+      capacity_bytes_(other.capacity_bytes_) {}
 
 Mesh& Mesh::operator=(Mesh&& other) noexcept {
     std::swap(array_, other.array_);
     std::swap(vertices_, other.vertices_);
     std::swap(indices_, other.indices_);
     std::swap(capacity_bytes_, other.capacity_bytes_);
-    std::swap(index_count_, other.index_count_);
     return *this;
 }
 
@@ -53,7 +51,6 @@ void Mesh::set_indices(std::span<const std::uint32_t> indices) {
     glCreateBuffers(1, &indices_);
     glNamedBufferStorage(indices_, static_cast<GLsizeiptr>(indices.size_bytes()), indices.data(), 0);
     glVertexArrayElementBuffer(array_, indices_);
-    index_count_ = indices.size();
 }
 
 void Mesh::update(std::span<const float> vertices) {
@@ -61,9 +58,10 @@ void Mesh::update(std::span<const float> vertices) {
     if (bytes > 0) glNamedBufferSubData(vertices_, 0, static_cast<GLsizeiptr>(bytes), vertices.data());
 }
 
-void Mesh::draw_triangles() const {
+void Mesh::draw_triangles(std::size_t first, std::size_t count) const {
     glBindVertexArray(array_);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(index_count_), GL_UNSIGNED_INT, nullptr);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(first * sizeof(std::uint32_t)));
 }
 
 void Mesh::draw_points(std::size_t count) const {

@@ -24,7 +24,8 @@ class Mesh {
     /// Replaces the vertices from the first on; at most max_vertices.
     void update(std::span<const float> vertices);
 
-    void draw_triangles() const;
+    /// `count` indices from the `first` on.
+    void draw_triangles(std::size_t first, std::size_t count) const;
     void draw_points(std::size_t count) const;
     void draw_strip(std::size_t count) const;
 
@@ -33,7 +34,6 @@ class Mesh {
     unsigned vertices_ = 0;
     unsigned indices_ = 0;
     std::size_t capacity_bytes_ = 0;
-    std::size_t index_count_ = 0;
 };
 
 }  // namespace skyig::render::gl

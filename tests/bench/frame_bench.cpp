@@ -1,10 +1,12 @@
 // What a channel costs, as a multiple of "a write": a full-screen triangle with a literal colour into RGBA8
-// of the same size, drawn in turn with it in the same run. Medians of wall time.
+// of the same size, drawn in turn with it in the same run. Medians of wall time, and of the processor time of
+// all threads, which other work on the machine touches less.
 //   frame_bench [ROUNDS]     default 60
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <vector>
 
 #include "render/gl/draw.h"
@@ -22,11 +24,24 @@ using namespace skyig::render;
 constexpr int kWidth = 1280;
 constexpr int kHeight = 1024;
 
+struct Spent {
+    double wall_ms = 0.0;
+    double processor_ms = 0.0;
+};
+
+double processor_ms() {
+    timespec now{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
 template <class Work>
-double milliseconds(Work work) {
+Spent spent(Work work) {
     const auto start = std::chrono::steady_clock::now();
+    const double processor_start_ms = processor_ms();
     work();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return {std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(),
+            processor_ms() - processor_start_ms};
 }
 
 double median(std::vector<double> values) {
@@ -36,7 +51,7 @@ double median(std::vector<double> values) {
 }
 
 struct Costs {
-    std::vector<double> write, draw, ratio, prepare, read_back;
+    std::vector<double> write, draw, ratio, processor_ratio, prepare, read_back;
 };
 
 Costs measure(Renderer& renderer, Scene scene, int rounds) {
@@ -47,22 +62,23 @@ Costs measure(Renderer& renderer, Scene scene, int rounds) {
     Costs costs;
     for (int i = -5; i < rounds; ++i) {
         scene.time_s += 1.0 / 30.0;
-        const double write = milliseconds([&] {
+        const Spent write = spent([&] {
             target.bind();
             gl::set_blend(gl::Blend::kReplace);
             program.use();
             triangle.draw_strip(3);
             gl::finish();
         });
-        const double prepare = milliseconds([&] { renderer.prepare(scene); });
-        const double draw = milliseconds([&] { renderer.draw(0); });
-        const double read_back = milliseconds([&] { renderer.read_back(0, pixels); });
+        const Spent prepare = spent([&] { renderer.prepare(scene); });
+        const Spent draw = spent([&] { renderer.draw(0); });
+        const Spent read_back = spent([&] { renderer.read_back(0, pixels); });
         if (i < 0) continue;  // shaders are compiled late
-        costs.write.push_back(write);
-        costs.draw.push_back(draw);
-        costs.ratio.push_back(draw / write);
-        costs.prepare.push_back(prepare);
-        costs.read_back.push_back(read_back);
+        costs.write.push_back(write.wall_ms);
+        costs.draw.push_back(draw.wall_ms);
+        costs.ratio.push_back(draw.wall_ms / write.wall_ms);
+        costs.processor_ratio.push_back(draw.processor_ms / write.processor_ms);
+        costs.prepare.push_back(prepare.wall_ms);
+        costs.read_back.push_back(read_back.wall_ms);
     }
     return costs;
 }
@@ -73,17 +89,17 @@ int main(int argc, char** argv) {
     const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 60;
     const gl::HeadlessContext context = gl::HeadlessContext::create(false);
     std::printf("%s, %dx%d, medians of %d rounds\n", context.description().c_str(), kWidth, kHeight, rounds);
-    std::printf("%-6s %9s %9s %9s %11s %9s %6s\n", "scene", "write ms", "draw ms", "writes", "shared ms",
-                "read ms", "stars");
+    std::printf("%-6s %9s %9s %9s %9s %11s %9s %6s\n", "scene", "write ms", "draw ms", "writes", "of cpu",
+                "shared ms", "read ms", "stars");
     for (auto& [name, scene] : tests::four_times()) {
         const double yaw = name == "dawn" ? 120.0 : name == "dusk" ? 235.0 : 175.0;
         tests::add_view(scene, tests::symmetric_frustum(30.0, kWidth, kHeight),
                         tests::view_from_enu(yaw, 8.0, 0.0));
         Renderer renderer({{"only", kWidth, kHeight}}, {});
         const Costs costs = measure(renderer, scene, rounds);
-        std::printf("%-6s %9.2f %9.2f %9.2f %11.3f %9.2f %6zu\n", name.c_str(), median(costs.write),
-                    median(costs.draw), median(costs.ratio), median(costs.prepare), median(costs.read_back),
-                    renderer.prepare(scene).stars_drawn);
+        std::printf("%-6s %9.2f %9.2f %9.2f %9.2f %11.3f %9.2f %6zu\n", name.c_str(), median(costs.write),
+                    median(costs.draw), median(costs.ratio), median(costs.processor_ratio),
+                    median(costs.prepare), median(costs.read_back), renderer.prepare(scene).stars_drawn);
     }
     return 0;
 }

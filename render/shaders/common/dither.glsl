@@ -2,7 +2,9 @@
 // the inverse powers of the plastic number).
 uniform float u_dither_codes;
 
-vec3 dithered(vec3 encoded) {
-    float phase = fract(dot(gl_FragCoord.xy, vec2(0.7548776662466927, 0.5698402909980532)));
-    return encoded + (phase - 0.5) * (u_dither_codes / 255.0);
+const vec2 kDitherStep = vec2(0.7548776662466927, 0.5698402909980532);
+
+// `phase` is dot(pixel position, kDitherStep).
+vec3 dithered(vec3 encoded, float phase) {
+    return encoded + (fract(phase) - 0.5) * (u_dither_codes / 255.0);
 }

@@ -37,5 +37,5 @@ void main() {
     vec3 display = display_linear(sky + light, tone);
     float largest = max(display.x, max(display.y, display.z));
     display *= mix(1.0, 0.85 / (3.0 + largest), shadow * cones * smoothstep(0.0, 1.0, largest));
-    o_colour = vec4(dithered(encoded(display, tone)), disc_coverage());
+    o_colour = vec4(dithered(encoded(display, tone), dot(gl_FragCoord.xy, kDitherStep)), disc_coverage());
 }

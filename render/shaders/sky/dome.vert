@@ -1,14 +1,21 @@
 #version 450 core
 // The dome of smooth light: vertices are directions, colours are toned already. Perspective-correct interpolation over
 // a flat triangle depends on the direction alone, so that neighbouring channels agree wherever they overlap.
+#include "common/dither.glsl"
+
 layout(location = 0) in vec3 a_direction;
 layout(location = 1) in vec3 a_encoded;
 
 uniform mat4 u_clip_from_mesh;
+uniform vec2 u_half_size_px;
 
 out vec3 v_encoded;
+// Phase times w rides on the triangles, and the rasteriser has 1 / w at hand: cheaper than gl_FragCoord.xy. (As a
+// noperspective varying it would be cheaper still, but llvmpipe loses clipped triangles that carry one.)
+out float v_dither_phase_w;
 
 void main() {
     v_encoded = a_encoded;
     gl_Position = u_clip_from_mesh * vec4(a_direction, 0.0);
+    v_dither_phase_w = dot((gl_Position.xy + gl_Position.w) * u_half_size_px, kDitherStep);
 }

@@ -15,5 +15,5 @@ void main() {
     float cos_emission = sqrt(1.0 - rho * rho);
     vec3 profile = (vec3(1.0) - u_limb * (1.0 - cos_emission)) / (vec3(1.0) - u_limb / 3.0);
     vec3 light = sky_behind() + v_light * profile;
-    o_colour = vec4(dithered(shown(light, u_tone)), disc_coverage());
+    o_colour = vec4(dithered(shown(light, u_tone), dot(gl_FragCoord.xy, kDitherStep)), disc_coverage());
 }

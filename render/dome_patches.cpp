@@ -1,0 +1,74 @@
+#include "render/dome_patches.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace skyig::render {
+
+DomePatches::DomePatches(std::uint32_t rows, std::uint32_t columns) : stride_(columns + 1) {
+    indices_.reserve(std::size_t{rows} * columns * 6);
+    for (std::uint32_t row = 0; row < rows; row += kSide) {
+        for (std::uint32_t column = 0; column < columns; column += kSide) {
+            Patch patch{row, column, std::min(kSide, rows - row), std::min(kSide, columns - column), {}};
+            patch.range.first = indices_.size();
+            for (std::uint32_t r = row; r < row + patch.rows; ++r) {
+                for (std::uint32_t c = column; c < column + patch.columns; ++c) {
+                    const std::uint32_t corner = r * stride_ + c;
+                    for (const std::uint32_t index : {corner, corner + 1, corner + stride_, corner + stride_,
+                                                      corner + 1, corner + stride_ + 1})
+                        indices_.push_back(index);
+                }
+            }
+            patch.range.count = indices_.size() - patch.range.first;
+            patches_.push_back(patch);
+        }
+    }
+    visible_.reserve(patches_.size());
+}
+
+void DomePatches::bound(std::span<const glm::vec3> directions) noexcept {
+    for (Patch& patch : patches_) {
+        glm::dvec3 sum{0.0};
+        const auto each = [&](auto&& use) {
+            for (std::uint32_t r = patch.row; r <= patch.row + patch.rows; ++r) {
+                for (std::uint32_t c = patch.column; c <= patch.column + patch.columns; ++c)
+                    use(glm::dvec3{directions[std::size_t{r} * stride_ + c]});
+            }
+        };
+        each([&](const glm::dvec3& d) { sum += d; });
+        const double length = glm::length(sum);
+        patch.axis = length > 0.0 ? sum / length : glm::dvec3{0.0, 0.0, 1.0};
+        double cosine = 1.0;
+        each([&](const glm::dvec3& d) { cosine = std::min(cosine, glm::dot(patch.axis, d)); });
+        // A flat triangle stays inside the cone of its corners as long as that is narrower than a half space.
+        constexpr double kRounding = 1e-6;
+        patch.sine = cosine > 0.0 ? std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) + kRounding : 1.0;
+    }
+}
+
+std::span<const IndexRange> DomePatches::visible(const glm::dmat4& clip_from_dome) noexcept {
+    const auto row = [&](int i) {
+        return glm::dvec3{clip_from_dome[0][i], clip_from_dome[1][i], clip_from_dome[2][i]};
+    };
+    const glm::dvec3 x = row(0);
+    const glm::dvec3 y = row(1);
+    const glm::dvec3 w = row(3);
+    // Each points into the view.
+    const std::array<glm::dvec3, 4> sides{glm::normalize(w + x), glm::normalize(w - x), glm::normalize(w + y),
+                                          glm::normalize(w - y)};
+    visible_.clear();
+    for (const Patch& patch : patches_) {
+        const bool outside = std::any_of(sides.begin(), sides.end(), [&](const glm::dvec3& side) {
+            return glm::dot(side, patch.axis) < -patch.sine;
+        });
+        if (outside) continue;
+        if (!visible_.empty() && visible_.back().first + visible_.back().count == patch.range.first)
+            visible_.back().count += patch.range.count;
+        else
+            visible_.push_back(patch.range);
+    }
+    return visible_;
+}
+
+}  // namespace skyig::render

@@ -1,0 +1,54 @@
+// The dome's triangles in patches, so that a channel draws those alone that stand in its view: most of what a
+// dome costs beside its pixels is triangles that no channel sees. Free of GL.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace skyig::render {
+
+/// A run of the index buffer.
+struct IndexRange {
+    std::size_t first = 0;
+    std::size_t count = 0;
+};
+
+/// A grid of rows x columns of directions, cut into patches of at most kSide x kSide quads.
+class DomePatches {
+  public:
+    static constexpr std::uint32_t kSide = 8;
+
+    /// \param rows, columns  quads each way; row-major vertices, columns + 1 in a row
+    DomePatches(std::uint32_t rows, std::uint32_t columns);
+
+    /// Triangles, patch by patch.
+    [[nodiscard]] std::span<const std::uint32_t> indices() const noexcept { return indices_; }
+
+    /// Takes over where the vertices lie. \param directions  unit vectors, (rows + 1) * (columns + 1)
+    void bound(std::span<const glm::vec3> directions) noexcept;
+
+    /// The runs of indices whose triangles may show. \param clip_from_dome  its first, second and fourth rows
+    /// span the view: -w <= x, y <= w. Valid until the next call; allocates nothing.
+    [[nodiscard]] std::span<const IndexRange> visible(const glm::dmat4& clip_from_dome) noexcept;
+
+  private:
+    struct Patch {
+        std::uint32_t row = 0;
+        std::uint32_t column = 0;
+        std::uint32_t rows = 0;
+        std::uint32_t columns = 0;
+        IndexRange range;
+        /// The cone that holds the patch: its axis, and the sine of its half angle (1: a half space or more).
+        glm::dvec3 axis{0.0, 0.0, 1.0};
+        double sine = 1.0;
+    };
+    std::uint32_t stride_;
+    std::vector<std::uint32_t> indices_;
+    std::vector<Patch> patches_;
+    std::vector<IndexRange> visible_;
+};
+
+}  // namespace skyig::render
