@@ -245,12 +245,15 @@ void run(const DaemonOptions& options, const config::Config& config,
     log.info("ephemeris {}", loop.report().ephemeris_text());
     loop.warm_up();
     running = &loop;
+    const std::int64_t cpu_before_ns = process_cpu_ns();
     loop.run([&stop] { return stop.requested(); });
+    const std::int64_t cpu_ns = process_cpu_ns() - cpu_before_ns;
     if (images) images->finish();
     outside.finish();
     tell_ends(log, outside, painter.description());
 
     RunReport report = loop.report();
+    report.cpu_s = static_cast<double>(cpu_ns) * 1e-9;
     if (const LiveWire* live = outside.live()) report.buses = live->bus_rows();
     if (!options.report_path.empty()) write_report(options.report_path, report);
     fmt::print("{}", to_table(report));

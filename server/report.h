@@ -82,6 +82,8 @@ struct RunReport {
     std::string renderer;
     double rate_hz = 0.0;
     double elapsed_s = 0.0;
+    /// Processor time of all threads, those of the driver too.
+    double cpu_s = 0.0;
     std::uint64_t frames = 0;
     std::uint64_t late_frames = 0;
     /// Grid slots without a frame, since the frame before took longer than a whole period.
@@ -118,6 +120,8 @@ struct RunReport {
     bool date_clamped = false;
     bool leap_seconds_assumed = false;
 
+    /// Of one processor; 0 for a run without time.
+    [[nodiscard]] double cpu_pct() const noexcept;
     /// "series, Earth orientation measured 1962-01-01..2026-08-21"
     [[nodiscard]] std::string ephemeris_text() const;
 };
