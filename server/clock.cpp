@@ -24,6 +24,10 @@ std::int64_t SystemClock::utc_ns() const noexcept {
     return read_ns(CLOCK_REALTIME);
 }
 
+std::int64_t process_cpu_ns() noexcept {
+    return read_ns(CLOCK_PROCESS_CPUTIME_ID);
+}
+
 void SystemClock::sleep_until_ns(std::int64_t monotonic_deadline_ns) {
     if (monotonic_deadline_ns <= 0) return;
     std::timespec deadline{};

@@ -33,6 +33,9 @@ class SystemClock final : public Clock {
     void sleep_until_ns(std::int64_t monotonic_deadline_ns) override;
 };
 
+/// Processor time that all threads of this program have taken so far, nanoseconds.
+[[nodiscard]] std::int64_t process_cpu_ns() noexcept;
+
 /// Stands still unless moved; sleeping moves it to the deadline.
 class ManualClock final : public Clock {
   public:

@@ -226,6 +226,9 @@ void run(const DaemonOptions& options, const config::Config& config,
     const std::unique_ptr<ImageWriter> images = open_images(options, config);
     const std::unique_ptr<FrameHashes> hashes =
         options.hashes_path.empty() ? nullptr : std::make_unique<FrameHashes>(options.hashes_path);
+    const std::unique_ptr<FrameTable> table =
+        options.times_path.empty() ? nullptr
+                                   : std::make_unique<FrameTable>(options.times_path, config.channels);
     GlPainter painter(render_channels(config), display_settings(config));
     say_banner(log, config, painter, outside.heard(options, config));
     if (const std::string path = record_path(options, config, clock); !path.empty()) {
@@ -235,18 +238,22 @@ void run(const DaemonOptions& options, const config::Config& config,
         log.info("records into {}", path);
     }
 
-    FrameLoop loop(config,
-                   {clock, log, outside.pace(), outside.wire(), world, painter, images.get(), hashes.get()},
-                   options.frames, options.out_every, std::move(orientation));
+    FrameLoop loop(
+        config,
+        {clock, log, outside.pace(), outside.wire(), world, painter, images.get(), hashes.get(), table.get()},
+        options.frames, options.out_every, std::move(orientation));
     log.info("ephemeris {}", loop.report().ephemeris_text());
     loop.warm_up();
     running = &loop;
+    const std::int64_t cpu_before_ns = process_cpu_ns();
     loop.run([&stop] { return stop.requested(); });
+    const std::int64_t cpu_ns = process_cpu_ns() - cpu_before_ns;
     if (images) images->finish();
     outside.finish();
     tell_ends(log, outside, painter.description());
 
     RunReport report = loop.report();
+    report.cpu_s = static_cast<double>(cpu_ns) * 1e-9;
     if (const LiveWire* live = outside.live()) report.buses = live->bus_rows();
     if (!options.report_path.empty()) write_report(options.report_path, report);
     fmt::print("{}", to_table(report));

@@ -29,6 +29,8 @@ struct DaemonOptions {
     std::string record_path;
     /// File for one line a frame and channel with the picture's hash; empty = none.
     std::string hashes_path;
+    /// File for one line of CSV a frame with its times; empty = none.
+    std::string times_path;
     /// File for the log's lines with the frames that they came in; empty = none.
     std::string events_path;
 };

@@ -66,10 +66,13 @@ bool FrameLoop::run_frame() {
     const FramePacer::Slot slot = *next;
     const std::int64_t start_ns = parts_.clock.monotonic_ns();
     if (frame_number_ == 0) first_start_ns_ = start_ns;
+    const std::int64_t utc_ns = parts_.clock.utc_ns();
     ++frame_number_;
 
-    answer_host(slot);
+    answer_host(slot, utc_ns);
+    const std::uint64_t arrivals_before = inbox_.arrivals();
     parts_.wire.drain(inbox_);
+    times_.input().add(parts_.clock.monotonic_ns() - start_ns);
     parts_.world.advance(static_cast<double>(slot.slots) * parts_.pace.period_s());
     draw(scenes_.build(parts_.world, frame_number_));
     if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images();
@@ -77,13 +80,17 @@ bool FrameLoop::run_frame() {
 
     last_end_ns_ = parts_.clock.monotonic_ns();
     times_.frame().add(last_end_ns_ - start_ns);
+    if (parts_.table != nullptr) {
+        parts_.table->add({frame_number_, utc_ns, slot.slots, slot.late, inbox_.arrivals() - arrivals_before},
+                          times_);
+    }
     watch(slot);
     return true;
 }
 
-void FrameLoop::answer_host(const FramePacer::Slot& slot) {
+void FrameLoop::answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns) {
     const std::span<const std::byte> message = answers_.open_frame(parts_.world, slot.start_ns, slot.late);
-    parts_.wire.open_frame({frame_number_, slot.slots, parts_.clock.utc_ns()}, message);
+    parts_.wire.open_frame({frame_number_, slot.slots, utc_ns}, message);
     const auto destination = answers_.destination(parts_.world.control_source(), parts_.world.control_link());
     if (!destination) return;
     if (parts_.wire.send(parts_.world.control_source(), *destination, message)) {
@@ -185,10 +192,11 @@ void FrameLoop::tell_dropped_datagrams() {
                            "{} datagrams dropped: their senders are not in allow",
                            now.not_allowed - told_wire_.not_allowed);
     }
-    if (now.ring_full > told_wire_.ring_full) {
-        parts_.log.limited("ring full", kRepeatAfter_s, Severity::kWarning,
-                           "{} datagrams dropped: they came faster than frames take them",
-                           now.ring_full - told_wire_.ring_full);
+    const std::uint64_t too_many =
+        now.ring_full + now.queue_full - told_wire_.ring_full - told_wire_.queue_full;
+    if (too_many > 0) {
+        parts_.log.limited("too many datagrams", kRepeatAfter_s, Severity::kWarning,
+                           "{} datagrams dropped: they came faster than they can be taken", too_many);
     }
     told_wire_ = now;
 }
@@ -203,6 +211,7 @@ RunReport FrameLoop::report() const {
     report.frames = frame_number_;
     report.late_frames = late_frames_;
     report.slots_left_out = slots_left_out_;
+    report.times.push_back(time_row("input", times_.input()));
     report.times.push_back(time_row("shared", times_.shared()));
     for (std::size_t i = 0; i < config_.channels.size(); ++i)
         report.times.push_back(time_row(config_.channels[i].name, times_.channel(i)));
@@ -249,6 +258,7 @@ void FrameLoop::report_host(RunReport& report) const {
     const protocol::transport::UdpCounters received = parts_.wire.counters();
     report.rejects.push_back({"not_allowed", received.not_allowed});
     report.rejects.push_back({"ring_full", received.ring_full});
+    report.rejects.push_back({"queue_full", received.queue_full});
 }
 
 }  // namespace skyig::server

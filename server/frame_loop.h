@@ -10,6 +10,7 @@
 #include "server/answers.h"
 #include "server/clock.h"
 #include "server/frame_hashes.h"
+#include "server/frame_table.h"
 #include "server/image_writer.h"
 #include "server/inbox.h"
 #include "server/log.h"
@@ -34,6 +35,8 @@ struct FrameLoopParts {
     ImageWriter* images = nullptr;
     /// Null: pictures are not hashed.
     FrameHashes* hashes = nullptr;
+    /// Null: frames are timed for the report alone.
+    FrameTable* table = nullptr;
 };
 
 /// Neither a host nor a disk can hold it up. A frame allocates nothing in steady state.
@@ -62,7 +65,7 @@ class FrameLoop {
     [[nodiscard]] RunReport report() const;
 
   private:
-    void answer_host(const FramePacer::Slot& slot);
+    void answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns);
     void draw(const render::Scene& scene);
     void hand_out_images();
     void hash_images();

@@ -94,6 +94,7 @@ void Inbox::take_message(std::size_t source, const transport::Datagram& datagram
 }
 
 void Inbox::take(std::size_t source, const protocol::CanFrame& frame) {
+    ++bus_frames_;
     if (buses_[source]) buses_[source]->take(frame);
 }
 

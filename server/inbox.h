@@ -30,6 +30,8 @@ class Inbox final : public ArrivalTaker {
     /// The bus of a source, or null.
     [[nodiscard]] const BusInput* bus(std::size_t source) const noexcept { return buses_[source].get(); }
     [[nodiscard]] std::uint64_t datagrams() const noexcept { return datagrams_; }
+    /// Datagrams and CAN frames.
+    [[nodiscard]] std::uint64_t arrivals() const noexcept { return datagrams_ + bus_frames_; }
 
   private:
     class Handler;
@@ -41,6 +43,7 @@ class Inbox final : public ArrivalTaker {
     protocol::cigi::Counters counters_;
     FramesBehind frames_behind_;
     std::uint64_t datagrams_ = 0;
+    std::uint64_t bus_frames_ = 0;
     /// By source; null where it speaks something else.
     std::vector<std::unique_ptr<BusInput>> buses_;
     std::vector<std::unique_ptr<FlightGearInput>> flight_models_;

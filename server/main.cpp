@@ -51,6 +51,8 @@ void declare(CLI::App& app, DaemonOptions& options) {
     app.add_option("--record", options.record_path, "record all input here as pcapng")->type_name("FILE");
     app.add_option("--hashes", options.hashes_path, "write a hash of each picture here, a line each")
         ->type_name("FILE");
+    app.add_option("--times", options.times_path, "write each frame's times here, a line of CSV each")
+        ->type_name("FILE");
     app.add_option("--events", options.events_path, "write the log here too, each line with its frame")
         ->type_name("FILE");
     app.set_version_flag("--version", std::string("skyigd " SKYIG_VERSION));

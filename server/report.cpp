@@ -49,6 +49,10 @@ nlohmann::ordered_json counts_json(const std::vector<NamedCount>& counts) {
 
 }  // namespace
 
+double RunReport::cpu_pct() const noexcept {
+    return elapsed_s > 0.0 ? 100.0 * cpu_s / elapsed_s : 0.0;
+}
+
 std::string RunReport::ephemeris_text() const {
     return earth_orientation.empty()
                ? fmt::format("{}, Earth orientation by the built-in tables", ephemeris)
@@ -60,6 +64,7 @@ std::string to_table(const RunReport& report) {
     const auto out = std::back_inserter(text);
     fmt::format_to(out, "frames          {} in {:.1f} s at {:g} Hz: {} late, {} left out\n", report.frames,
                    report.elapsed_s, report.rate_hz, report.late_frames, report.slots_left_out);
+    fmt::format_to(out, "processor       {:.1f} s, {:.1f} % of one\n", report.cpu_s, report.cpu_pct());
     fmt::format_to(out, "{:<32} {:>10} {:>10} {:>10}\n", "times in ms", "median", "p95", "largest");
     for (const TimeRow& row : report.times) {
         fmt::format_to(out, "  {:<30} {:>10.2f} {:>10.2f} {:>10.2f}\n", row.name, row.median_ms, row.p95_ms,
@@ -97,6 +102,7 @@ std::string to_json(const RunReport& report) {
     json["renderer"] = report.renderer;
     json["rate_hz"] = report.rate_hz;
     json["elapsed_s"] = report.elapsed_s;
+    json["cpu_s"] = report.cpu_s;
     json["frames"] = report.frames;
     json["late_frames"] = report.late_frames;
     json["slots_left_out"] = report.slots_left_out;

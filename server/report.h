@@ -12,19 +12,24 @@
 
 namespace skyig::server {
 
-/// Durations of a run's frames: the work all channels share, each channel, and the whole frame.
+/// Durations of a run's frames: answering and listening, the work all channels share, each channel, and the
+/// whole frame.
 class FrameTimes {
   public:
     explicit FrameTimes(std::size_t channels) : channels_(channels) {}
 
+    TimeHistogram& input() noexcept { return input_; }
     TimeHistogram& shared() noexcept { return shared_; }
     TimeHistogram& frame() noexcept { return frame_; }
     TimeHistogram& channel(std::size_t index) noexcept { return channels_[index]; }
+    [[nodiscard]] const TimeHistogram& input() const noexcept { return input_; }
     [[nodiscard]] const TimeHistogram& shared() const noexcept { return shared_; }
     [[nodiscard]] const TimeHistogram& frame() const noexcept { return frame_; }
     [[nodiscard]] const TimeHistogram& channel(std::size_t index) const noexcept { return channels_[index]; }
+    [[nodiscard]] std::size_t channels() const noexcept { return channels_.size(); }
 
   private:
+    TimeHistogram input_;
     TimeHistogram shared_;
     TimeHistogram frame_;
     std::vector<TimeHistogram> channels_;
@@ -77,11 +82,13 @@ struct RunReport {
     std::string renderer;
     double rate_hz = 0.0;
     double elapsed_s = 0.0;
+    /// Processor time of all threads, those of the driver too.
+    double cpu_s = 0.0;
     std::uint64_t frames = 0;
     std::uint64_t late_frames = 0;
     /// Grid slots without a frame, since the frame before took longer than a whole period.
     std::uint64_t slots_left_out = 0;
-    /// "shared" first, then the channels, "frame" last.
+    /// "input" and "shared" first, then the channels, "frame" last.
     std::vector<TimeRow> times;
 
     /// The host last heard, "127.0.0.1:8005"; empty when none was.
@@ -113,6 +120,8 @@ struct RunReport {
     bool date_clamped = false;
     bool leap_seconds_assumed = false;
 
+    /// Of one processor; 0 for a run without time.
+    [[nodiscard]] double cpu_pct() const noexcept;
     /// "series, Earth orientation measured 1962-01-01..2026-08-21"
     [[nodiscard]] std::string ephemeris_text() const;
 };

@@ -18,6 +18,7 @@ void TimeHistogram::add(std::int64_t duration_ns) noexcept {
     ++bins_[static_cast<std::size_t>(std::min(bin, static_cast<double>(kBins - 1)))];
     ++count_;
     largest_ns_ = std::max(largest_ns_, duration_ns);
+    last_ns_ = duration_ns;
 }
 
 double TimeHistogram::quantile_ms(double q) const noexcept {

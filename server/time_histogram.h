@@ -18,6 +18,8 @@ class TimeHistogram {
     /// none.
     [[nodiscard]] double quantile_ms(double q) const noexcept;
     [[nodiscard]] double largest_ms() const noexcept { return static_cast<double>(largest_ns_) * 1e-6; }
+    /// The one added last.
+    [[nodiscard]] std::int64_t last_ns() const noexcept { return last_ns_; }
 
   private:
     static constexpr std::size_t kBins = 1852;
@@ -25,6 +27,7 @@ class TimeHistogram {
     std::array<std::uint32_t, kBins> bins_{};
     std::uint64_t count_ = 0;
     std::int64_t largest_ns_ = 0;
+    std::int64_t last_ns_ = 0;
 };
 
 }  // namespace skyig::server

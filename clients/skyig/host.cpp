@@ -112,7 +112,7 @@ class HostRun {
     transport::UdpReceiver open_receiver() const {
         transport::UdpOptions udp;
         udp.listen = value_or_throw<UsageError>(transport::parse_endpoint(options_.listen), "--listen");
-        udp.allowed = {to_.address};
+        udp.allowed = {{to_.address, 0}};
         return value_or_throw<std::runtime_error>(transport::UdpReceiver::open(udp));
     }
 

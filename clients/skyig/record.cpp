@@ -48,7 +48,7 @@ File open_file(const std::string& path) {
 std::vector<transport::UdpReceiver> open_ports(const RecordOptions& options) {
     transport::UdpOptions udp;
     for (const std::string& sender : options.from)
-        udp.allowed.push_back(value_or_throw(transport::parse_ipv4(sender)));
+        udp.allowed.push_back({value_or_throw(transport::parse_ipv4(sender)), 0});
     std::vector<transport::UdpReceiver> ports;
     for (const std::string& listen : options.listen) {
         udp.listen = value_or_throw(transport::parse_endpoint(listen));
@@ -104,7 +104,7 @@ class RecordRun {
         std::uint64_t lost = 0;
         for (const transport::UdpReceiver& port : ports_) {
             not_allowed += port.counters().not_allowed;
-            lost += port.counters().ring_full;
+            lost += port.counters().ring_full + port.counters().queue_full;
         }
         for (const transport::CanReceiver& bus : buses_)
             lost += bus.counters().ring_full + bus.counters().dropped;

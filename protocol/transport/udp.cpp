@@ -16,6 +16,8 @@
 #include <thread>
 
 #include "protocol/transport/event_signal.h"
+#include "protocol/transport/sender_filter.h"
+#include "protocol/transport/work_budget.h"
 
 namespace skyig::protocol::transport {
 namespace {
@@ -24,8 +26,18 @@ constexpr std::size_t kBatch = 16;
 constexpr std::size_t kLargestDatagram = 65536;
 /// What the kernel may hold for us while the thread is not running: two seconds of a busy host.
 constexpr int kKernelBufferBytes = 1 << 20;
-constexpr Ipv4 kLoopbackNet = 127;
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+constexpr int kNanosecondsPerMillisecond = 1'000'000;
+
+/// A host's burst after silence is read at once: some thousand datagrams.
+constexpr std::int64_t kBurstNs = 5'000'000;
+/// What a thread that wakes takes from the one that ran there, beside its own time.
+constexpr std::int64_t kWakeNs = 20'000;
+/// So many datagrams of strangers in so long are a flood; below, each is looked at and counted.
+constexpr int kStrangersOfAFlood = 256;
+constexpr std::int64_t kFloodWithinNs = 100'000'000;
+/// How long the kernel filters them until it is seen whether they still come.
+constexpr int kFilterMs = 250;
 
 sockaddr_in to_sockaddr(const Endpoint& endpoint) noexcept {
     sockaddr_in address{};
@@ -41,6 +53,12 @@ Endpoint to_endpoint(const sockaddr_in& address) noexcept {
 
 std::int64_t to_ns(const timespec& time) noexcept {
     return static_cast<std::int64_t>(time.tv_sec) * kNanosecondsPerSecond + time.tv_nsec;
+}
+
+std::int64_t read_clock_ns(clockid_t clock) noexcept {
+    timespec time{};
+    ::clock_gettime(clock, &time);
+    return to_ns(time);
 }
 
 /// One line: what failed and what would help.
@@ -75,9 +93,7 @@ std::int64_t arrival_of(msghdr& header) noexcept {
             return to_ns(stamp);
         }
     }
-    timespec now{};
-    ::clock_gettime(CLOCK_REALTIME, &now);
-    return to_ns(now);
+    return read_clock_ns(CLOCK_REALTIME);
 }
 
 void add(std::atomic<std::uint64_t>& counter, std::uint64_t amount) noexcept {
@@ -127,7 +143,12 @@ class ReceiveBatch {
 
 struct UdpReceiver::State {
     State(FileDescriptor bound, const Endpoint& bound_to, const UdpOptions& options)
-        : socket(std::move(bound)), local(bound_to), allowed(options.allowed), ring(options.ring_bytes) {}
+        : socket(std::move(bound)),
+          local(bound_to),
+          senders(options.allowed),
+          drops(socket.get()),
+          budget(options.most_of_processor, kBurstNs),
+          ring(options.ring_bytes) {}
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     State(State&&) = delete;
@@ -137,51 +158,70 @@ struct UdpReceiver::State {
         if (thread.joinable()) thread.join();
     }
 
-    [[nodiscard]] bool is_allowed(Ipv4 address) const noexcept {
-        if (allowed.empty()) return address >> 24U == kLoopbackNet;
-        return std::find(allowed.begin(), allowed.end(), address) != allowed.end();
+    void take(const Datagram& datagram) noexcept {
+        if (!senders.allows(datagram.from)) {
+            add(not_allowed, 1);
+            ++strangers;
+        } else if (!ring.push(datagram)) {
+            add(ring_full, 1);
+        } else {
+            add(received, 1);
+            add(received_bytes, datagram.bytes.size());
+        }
     }
 
-    /// True if the datagram is in the ring.
-    bool take(const Datagram& datagram) noexcept {
-        if (!is_allowed(datagram.from.address)) {
-            add(not_allowed, 1);
+    /// One batch; what is left in the socket is told by the next poll. False if the socket is broken for now.
+    bool receive() noexcept {
+        const int count = batch.receive(socket.get());
+        if (count < 0) {
+            if (errno == EINTR || errno == EAGAIN || errno == EWOULDBLOCK) return true;
+            add(errors, 1);
             return false;
         }
-        if (!ring.push(datagram)) {
-            add(ring_full, 1);
-            return false;
-        }
-        add(received, 1);
-        add(received_bytes, datagram.bytes.size());
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+            take(batch.datagram(i));
+        ready.raise();
+        if (static_cast<std::size_t>(count) < kBatch) wakes_ns += kWakeNs;
         return true;
     }
 
-    /// Until the socket is empty. False if it is broken for now.
-    bool receive_all() noexcept {
-        for (;;) {
-            const int count = batch.receive(socket.get());
-            if (count < 0) {
-                if (errno == EINTR) continue;
-                if (errno == EAGAIN || errno == EWOULDBLOCK) return true;
-                add(errors, 1);
-                return false;
-            }
-            for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-                take(batch.datagram(i));
-            ready.raise();
-            if (static_cast<std::size_t>(count) < kBatch) return true;
+    /// Has the kernel filter strangers while they flood, and stops now and then to see whether they still do.
+    void watch_strangers(std::int64_t now_ns) noexcept {
+        if (filtering) {
+            if (now_ns - watched_since_ns < std::int64_t{kFilterMs} * kNanosecondsPerMillisecond) return;
+            drops.set_filtering(false);
+            SenderFilter::detach(socket.get());
+            filtering = false;
+        } else if (strangers >= kStrangersOfAFlood) {
+            filtering = senders.attach(socket.get());
+            drops.set_filtering(filtering);
+        } else if (now_ns - watched_since_ns < kFloodWithinNs) {
+            return;
         }
+        watched_since_ns = now_ns;
+        strangers = 0;
+    }
+
+    /// How long to leave the socket alone, milliseconds.
+    int rest_ms(std::int64_t now_ns) noexcept {
+        const std::int64_t rest_ns =
+            budget.rest_ns(now_ns, wakes_ns + read_clock_ns(CLOCK_THREAD_CPUTIME_ID));
+        return static_cast<int>((rest_ns + kNanosecondsPerMillisecond - 1) / kNanosecondsPerMillisecond);
     }
 
     void run() noexcept {
         constexpr int kPauseAfterErrorMs = 10;
         std::array<pollfd, 2> watched{{stop.watched(), {socket.get(), POLLIN, 0}}};
         for (;;) {
-            if (::poll(watched.data(), watched.size(), -1) < 0 && errno != EINTR) add(errors, 1);
+            if (::poll(watched.data(), watched.size(), filtering ? kFilterMs : -1) < 0 && errno != EINTR)
+                add(errors, 1);
             if ((watched[0].revents & POLLIN) != 0) return;
             // A socket that fails again and again must not take a processor for itself.
-            if (watched[1].revents != 0 && !receive_all()) ::poll(watched.data(), 1, kPauseAfterErrorMs);
+            int pause_ms = watched[1].revents != 0 && !receive() ? kPauseAfterErrorMs : 0;
+            const std::int64_t now_ns = read_clock_ns(CLOCK_MONOTONIC);
+            watch_strangers(now_ns);
+            pause_ms = std::max(pause_ms, rest_ms(now_ns));
+            if (pause_ms > 0) ::poll(watched.data(), 1, pause_ms);
         }
     }
 
@@ -189,7 +229,15 @@ struct UdpReceiver::State {
     EventSignal stop;
     EventSignal ready;
     Endpoint local;
-    std::vector<Ipv4> allowed;
+    SenderFilter senders;
+    KernelDrops drops;
+    // Of the thread alone.
+    WorkBudget budget;
+    std::int64_t wakes_ns = 0;
+    bool filtering = false;
+    int strangers = 0;
+    std::int64_t watched_since_ns = 0;
+
     DatagramRing ring;
     ReceiveBatch batch;
     std::atomic<std::uint64_t> received{0};
@@ -257,8 +305,13 @@ UdpCounters UdpReceiver::counters() const noexcept {
     const auto value = [](const std::atomic<std::uint64_t>& counter) {
         return counter.load(std::memory_order_relaxed);
     };
-    return {value(state_->received), value(state_->received_bytes), value(state_->not_allowed),
-            value(state_->ring_full), value(state_->errors)};
+    const KernelDrops::Counts drops = state_->drops.counts();
+    return {value(state_->received),
+            value(state_->received_bytes),
+            value(state_->not_allowed) + drops.strangers,
+            value(state_->ring_full),
+            drops.queue_full,
+            value(state_->errors)};
 }
 
 Result<UdpSender, std::string> UdpReceiver::make_sender() const {

@@ -20,10 +20,13 @@ namespace skyig::protocol::transport {
 
 struct UdpOptions {
     Endpoint listen;
-    /// Addresses that may send, any port. Empty: 127.0.0.0/8 only.
-    std::vector<Ipv4> allowed{};
+    /// Who may send; port 0: any of that address. Empty: 127.0.0.0/8, any port.
+    std::vector<Endpoint> allowed{};
     /// Room for datagrams that wait for the consumer; brought to a power of two, 256 KiB at least.
     std::size_t ring_bytes = std::size_t{4} << 20U;
+    /// How much of a processor the thread may take over time; what comes faster waits in the socket's queue,
+    /// and what finds that full is dropped by the kernel. 1: all of it.
+    double most_of_processor = 1.0;
 };
 
 struct UdpCounters {
@@ -31,6 +34,7 @@ struct UdpCounters {
     std::uint64_t received_bytes = 0;
     std::uint64_t not_allowed = 0;  // dropped: sender not on the list
     std::uint64_t ring_full = 0;    // dropped: the consumer was too slow
+    std::uint64_t queue_full = 0;   // dropped by the kernel: the thread was too slow, or held back
     std::uint64_t errors = 0;       // failed receive calls
 };
 
@@ -78,9 +82,10 @@ class UdpReceiver {
     /// frame clock.
     [[nodiscard]] bool wait(std::chrono::milliseconds timeout) noexcept;
 
+    /// While strangers flood the kernel filters them: what it drops meanwhile counts as theirs.
+    [[nodiscard]] UdpCounters counters() const noexcept;
     /// Where it listens, with the port that the system chose if 0 was asked for.
     [[nodiscard]] Endpoint local() const noexcept;
-    [[nodiscard]] UdpCounters counters() const noexcept;
     /// A sender that uses this socket: what it sends comes from local().
     [[nodiscard]] Result<UdpSender, std::string> make_sender() const;
 

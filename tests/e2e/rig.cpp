@@ -17,7 +17,7 @@ std::string Rig::settings(const std::optional<std::string>& start_utc, const std
 }
 
 Replayed replay(const std::string& daemon, const std::string& config_path, const std::string& recording,
-                const std::vector<std::string>& more) {
+                const std::vector<std::string>& more, std::chrono::seconds limit) {
     const ScratchDirectory scratch;
     std::vector<std::string> command{daemon,
                                      "--config",
@@ -32,7 +32,7 @@ Replayed replay(const std::string& daemon, const std::string& config_path, const
                                      scratch.file("report")};
     command.insert(command.end(), more.begin(), more.end());
     Replayed out;
-    out.finished = run(command);
+    out.finished = Process(command).wait(limit);
     out.hashes = read_text(scratch.file("hashes"));
     out.events = read_text(scratch.file("events"));
     out.report = read_text(scratch.file("report"));

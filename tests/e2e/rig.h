@@ -1,6 +1,7 @@
 // A site with a host and an instructor on ports of their own, and runs of the daemon over recordings of it.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,7 +37,8 @@ struct Replayed {
 
 /// Runs a recording as fast as it goes.
 [[nodiscard]] Replayed replay(const std::string& daemon, const std::string& config_path,
-                              const std::string& recording, const std::vector<std::string>& more = {});
+                              const std::string& recording, const std::vector<std::string>& more = {},
+                              std::chrono::seconds limit = std::chrono::seconds(60));
 
 /// Lines of `events` from frame 1 on, without that of another renderer: what does not depend on machine and
 /// paths.

@@ -28,13 +28,14 @@ std::uint16_t free_port() {
     return TestSocket().port();
 }
 
-TestSocket::TestSocket(std::uint16_t port) : descriptor_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in address = loopback(port);
-    if (bind(descriptor_, generic(address), sizeof(address)) != 0)
-        throw std::runtime_error("test port is taken");
-    socklen_t size = sizeof(address);
-    getsockname(descriptor_, reinterpret_cast<sockaddr*>(&address), &size);
-    port_ = ntohs(address.sin_port);
+TestSocket::TestSocket(std::uint16_t port, std::uint32_t address)
+    : descriptor_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in bound = loopback(port);
+    bound.sin_addr.s_addr = htonl(address);
+    if (bind(descriptor_, generic(bound), sizeof(bound)) != 0) throw std::runtime_error("test port is taken");
+    socklen_t size = sizeof(bound);
+    getsockname(descriptor_, reinterpret_cast<sockaddr*>(&bound), &size);
+    port_ = ntohs(bound.sin_port);
 }
 
 TestSocket::~TestSocket() {

@@ -13,15 +13,16 @@ namespace skyig::tests {
 /// A UDP port of 127.0.0.1 that nobody has now.
 [[nodiscard]] std::uint16_t free_port();
 
-/// A bound UDP socket of 127.0.0.1.
+/// A bound UDP socket of 127.0.0.1, or of another address of this machine.
 class TestSocket {
   public:
-    explicit TestSocket(std::uint16_t port = 0);
+    explicit TestSocket(std::uint16_t port = 0, std::uint32_t address = 0x7F000001);
     ~TestSocket();
     TestSocket(const TestSocket&) = delete;
     TestSocket& operator=(const TestSocket&) = delete;
 
     [[nodiscard]] std::uint16_t port() const { return port_; }
+    [[nodiscard]] int descriptor() const { return descriptor_; }
     void send(std::uint16_t to_port, std::span<const std::byte> bytes) const;
 
   private:

@@ -107,7 +107,7 @@ TEST(Udp, TheLargestAndTheEmptyDatagramArriveWhole) {
 }
 
 TEST(Udp, StrangersAreCountedAndDropped) {
-    UdpReceiver receiver = opened({.listen = kLoopback, .allowed = {0x7F000002, 0x0A000001}});
+    UdpReceiver receiver = opened({.listen = kLoopback, .allowed = {{0x7F000002, 0}, {0x0A000001, 0}}});
     UdpSender stranger = sender();
     UdpReceiver second = opened({.listen = {0x7F000002, 0}});
     auto friendly = second.make_sender();

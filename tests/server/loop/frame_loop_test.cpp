@@ -193,7 +193,7 @@ TEST_F(FrameLoopTest, WarmsUpUncountedAndUnheard) {
     EXPECT_EQ(painter_.last_scene.view_count, 1U);
     loop_->run([] { return false; });
     EXPECT_EQ(loop_->report().frames, 3U);
-    EXPECT_NEAR(loop_->report().times[0].median_ms, 1.0, 0.01);
+    EXPECT_NEAR(loop_->report().times[1].median_ms, 1.0, 0.01);
     EXPECT_EQ(last_answer(cigi::Version::k33).ig_frame_number, 3U);
 }
 
@@ -263,13 +263,15 @@ TEST_F(FrameLoopTest, StopsWhenAsked) {
 TEST_F(FrameLoopTest, TimesSharedWorkChannelsAndFrame) {
     loop(20).run([] { return false; });
     const RunReport report = loop_->report();
-    ASSERT_EQ(report.times.size(), 3U);
-    EXPECT_EQ(report.times[0].name, "shared");
-    EXPECT_NEAR(report.times[0].median_ms, 1.0, 0.01);
-    EXPECT_EQ(report.times[1].name, "centre");
-    EXPECT_NEAR(report.times[1].p95_ms, 2.0, 0.02);
-    EXPECT_EQ(report.times[2].name, "frame");
-    EXPECT_NEAR(report.times[2].largest_ms, 3.0, 0.03);
+    ASSERT_EQ(report.times.size(), 4U);
+    EXPECT_EQ(report.times[0].name, "input");
+    EXPECT_EQ(report.times[0].median_ms, 0.0);
+    EXPECT_EQ(report.times[1].name, "shared");
+    EXPECT_NEAR(report.times[1].median_ms, 1.0, 0.01);
+    EXPECT_EQ(report.times[2].name, "centre");
+    EXPECT_NEAR(report.times[2].p95_ms, 2.0, 0.02);
+    EXPECT_EQ(report.times[3].name, "frame");
+    EXPECT_NEAR(report.times[3].largest_ms, 3.0, 0.03);
 }
 
 TEST_F(FrameLoopTest, CountsLateFramesAndSaysSoOnceAWhile) {

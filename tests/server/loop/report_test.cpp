@@ -62,6 +62,7 @@ RunReport example() {
     report.renderer = "4.5 \"quoted\"";
     report.rate_hz = 60.0;
     report.elapsed_s = 2.5;
+    report.cpu_s = 0.75;
     report.frames = 150;
     report.late_frames = 3;
     report.slots_left_out = 1;
@@ -88,6 +89,7 @@ TEST(Report, TableShowsWhatHappenedAndNoZeros) {
     using ::testing::HasSubstr;
     using ::testing::Not;
     EXPECT_THAT(table, HasSubstr("150 in 2.5 s at 60 Hz: 3 late, 1 left out"));
+    EXPECT_THAT(table, HasSubstr("processor       0.8 s, 30.0 % of one\n"));
     EXPECT_THAT(table, HasSubstr("  left                                 4.25       5.00       6.00\n"));
     EXPECT_THAT(
         table,
@@ -109,6 +111,7 @@ TEST(Report, TableWithoutAHostSaysSo) {
 TEST(Report, JsonHoldsEveryCount) {
     const auto json = nlohmann::json::parse(to_json(example()));
     EXPECT_EQ(json.at("frames"), 150);
+    EXPECT_EQ(json.at("cpu_s"), 0.75);
     EXPECT_EQ(json.at("renderer"), "4.5 \"quoted\"");
     EXPECT_EQ(json.at("times").at(1).at("name"), "left");
     EXPECT_EQ(json.at("times").at(1).at("median_ms"), 4.25);
