@@ -108,7 +108,7 @@ TEST(Log, ManyKeysShareTheLastLimit) {
     }();
     Kept kept;
     for (const std::string& key : keys)
-        kept.log.limited(key, 10.0, Severity::kWarning, "{}", key);
+        kept.log.limited(key.c_str(), 10.0, Severity::kWarning, "{}", key);
     EXPECT_EQ(kept.lines.size(), Log::kMaxKeys);
 }
 
