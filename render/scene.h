@@ -82,6 +82,41 @@ struct Air {
     friend bool operator==(const Air&, const Air&) = default;
 };
 
+/// One train of waves, as long as it is not broken: crests in parallel lines.
+struct Wave {
+    /// From trough to crest.
+    double height_m = 0.0;
+    double length_m = 1.0;
+    double period_s = 1.0;
+    /// Where it runs to, clockwise from true north.
+    double direction_rad = 0.0;
+    /// Added to the phase, which is 0 at a crest at the eye at scene time 0.
+    double phase_rad = 0.0;
+    /// How far the crest leads the middle between its troughs, in phase: 0 is a symmetrical wave.
+    double leading_rad = 0.0;
+    enum class Breaker : std::uint8_t { kPlunging, kSpilling, kSurging };
+    Breaker breaker = Breaker::kPlunging;
+
+    friend bool operator==(const Wave&, const Wave&) = default;
+};
+
+inline constexpr std::size_t kMaxWaves = 16;
+
+/// The sea below the eye.
+struct Sea {
+    /// Of its mean surface above the WGS84 ellipsoid.
+    double height_m = 0.0;
+    double temperature_c = 15.0;
+    /// Of the water, 0 opaque .. 1 clear.
+    double clarity = 1.0;
+    /// 0 without whitecaps, 1 with.
+    double whitecaps = 0.0;
+    std::array<Wave, kMaxWaves> waves{};
+    std::size_t wave_count = 0;
+
+    [[nodiscard]] std::span<const Wave> all_waves() const noexcept { return {waves.data(), wave_count}; }
+};
+
 struct Eye {
     double latitude_deg = 0.0;
     double longitude_deg = 0.0;
@@ -101,6 +136,7 @@ struct Scene {
     /// Mercury, Venus, Mars, Jupiter, Saturn; switched and faded with the stars.
     std::array<Planet, kPlanetCount> planets{};
     Air air;
+    Sea sea;
 
     std::array<ChannelView, kMaxChannels> views{};
     std::size_t view_count = 0;

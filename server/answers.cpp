@@ -31,6 +31,7 @@ std::span<const std::byte> Answers::open_frame(world::World& world, std::int64_t
     cigi::Session& session = world.session();
     cigi::StartOfFrame start_of_frame = session.next_frame(static_cast<std::uint32_t>(start_ns / kTickNs));
     start_of_frame.overframing = late;
+    start_of_frame.earth_model = world.earth().custom;
     cigi::MessageWriter writer(buffer_, session.version(), cigi::Session::order());
     // It always fits: 24 bytes in both versions.
     (void)writer.add(start_of_frame);

@@ -19,7 +19,8 @@ constexpr double kRepeatAfter_s = 10.0;
 /// Hands the packets of one message to the world and sees what passes by.
 class Inbox::Handler {
   public:
-    Handler(Inbox& inbox, std::size_t source, const transport::Endpoint& from) : inbox_(inbox), from_(from) {
+    Handler(Inbox& inbox, std::size_t source, const transport::Endpoint& from)
+        : inbox_(inbox), source_(source), from_(from) {
         inbox_.world_.begin_message(source, from);
     }
 
@@ -38,11 +39,22 @@ class Inbox::Handler {
     void refused(const cigi::RefusedPacket& packet, const cigi::PacketInfo& info) {
         const char* const fault =
             packet.reason == cigi::Count::kNonfinite ? "not a finite number" : "out of range";
-        inbox_.log_.limited("packet refused", kRepeatAfter_s, Severity::kWarning,
+        inbox_.log_.limited({"packet refused", source_}, kRepeatAfter_s, Severity::kWarning,
                             "host {}: {} at byte {} of a message ignored: {} is {}", from_,
                             cigi::packet_name(packet.kind), info.offset, packet.field, fault);
         inbox_.world_.outbox().messages.add(world::Matter::kPacketRefused, "{} at byte {}: {} is {}",
                                             cigi::packet_name(packet.kind), info.offset, packet.field, fault);
+    }
+
+    void passed_over(const cigi::RefusedPacket& packet, const cigi::PacketInfo& info) {
+        const bool duplicate = packet.reason == cigi::Count::kDuplicateIgControl;
+        inbox_.log_.limited(
+            {duplicate ? "IG Control again" : "packet of a wrong size", source_}, kRepeatAfter_s,
+            Severity::kWarning, "host {}: {} of {} bytes at byte {} ignored: {}", from_,
+            cigi::packet_name(packet.kind), info.bytes.size(), info.offset, cigi::count_text(packet.reason));
+        inbox_.world_.outbox().messages.add(world::Matter::kPacketRefused, "{} at byte {}: {}",
+                                            cigi::packet_name(packet.kind), info.offset,
+                                            cigi::count_text(packet.reason));
     }
 
   private:
@@ -53,6 +65,7 @@ class Inbox::Handler {
     }
 
     Inbox& inbox_;
+    std::size_t source_;
     transport::Endpoint from_;
 };
 
@@ -83,11 +96,11 @@ void Inbox::take_message(std::size_t source, const transport::Datagram& datagram
     if (summary.accepted) {
         world_.outbox().messages.add(world::Matter::kMessageCut, "message ignored from byte {} on: {}",
                                      summary.offset, cigi::count_text(*summary.fault));
-        log_.limited("message cut short", kRepeatAfter_s, Severity::kWarning,
+        log_.limited({"message cut short", source}, kRepeatAfter_s, Severity::kWarning,
                      "host {}: message ignored from byte {} on: {}", datagram.from, summary.offset,
                      cigi::count_text(*summary.fault));
     } else {
-        log_.limited("datagram dropped", kRepeatAfter_s, Severity::kWarning,
+        log_.limited({"datagram dropped", source}, kRepeatAfter_s, Severity::kWarning,
                      "datagram of {} bytes from {} dropped: {}", datagram.bytes.size(), datagram.from,
                      cigi::count_text(*summary.fault));
     }

@@ -40,9 +40,9 @@ void declare(CLI::App& app, DaemonOptions& options) {
         ->type_name("N");
     app.add_option("--report", options.report_path, "write the report of the run here as JSON")
         ->type_name("FILE");
-    CLI::Option* replay =
-        app.add_option("--replay", options.replay_path, "run a recording (pcapng, pcap) instead of listening")
-            ->type_name("FILE");
+    CLI::Option* replay = app.add_option("--replay", options.replay_path,
+                                         "run a recording (pcapng, pcap, candump log) instead of listening")
+                              ->type_name("FILE");
     app.add_option("--speed", options.replay_speed,
                    "replay at so many times the recorded pace (0: as fast as it goes)")
         ->check(CLI::Range(0.0, 1000.0))

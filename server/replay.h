@@ -2,11 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
-#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "config/config.h"
 #include "protocol/recording/capture_reader.h"
@@ -16,10 +13,10 @@
 
 namespace skyig::server {
 
-/// Reads one of our recordings, or any capture of UDP or CAN. Ours say when each frame began and how far the
-/// world moved; with others frames stand on a grid from the first packet on. A packet is of the source that
-/// is heard at its destination port (its sender must be allowed there), a CAN frame of the source with its
-/// interface; with one source of a kind alone it is that one's in any case.
+/// Reads one of our recordings, any capture of UDP or CAN, or a candump log. Ours say when each frame began
+/// and how far the world moved; with others frames stand on a grid from the first packet on. A packet is of
+/// the source that is heard at its destination port (its sender must be allowed there), a CAN frame of the
+/// source with its interface; with one source of a kind alone it is that one's in any case.
 class Replay {
   public:
     /// \throws std::runtime_error with one line when the file cannot be read

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "server/ephemeris/time.h"
+#include "server/world/conditions.h"
 
 namespace skyig::server {
 namespace {
@@ -95,6 +96,38 @@ render::Air air_of(const world::AirState& state) noexcept {
     return air;
 }
 
+render::Wave wave_of(const world::WaveAt& at) noexcept {
+    const protocol::cigi::WaveControl& told = *at.wave;
+    render::Wave wave;
+    wave.height_m = static_cast<double>(told.height) * at.weight;
+    wave.length_m = static_cast<double>(told.wavelength);
+    wave.period_s = static_cast<double>(told.period);
+    wave.direction_rad = static_cast<double>(told.direction) * kRadPerDeg;
+    wave.phase_rad = static_cast<double>(told.phase_offset) * kRadPerDeg;
+    wave.leading_rad = static_cast<double>(told.leading) * kRadPerDeg;
+    wave.breaker = static_cast<render::Wave::Breaker>(told.breaker_type);
+    return wave;
+}
+
+static_assert(world::WavesAt::kMost <= render::kMaxWaves, "every wave at a point has a place in the scene");
+
+render::Sea sea_of(const world::World& world, const render::Eye& eye) noexcept {
+    const world::SurfaceStore& surfaces = world.surfaces();
+    const world::RegionsAt regions =
+        surfaces.is_regional()
+            ? world::RegionsAt(world.weather(), world::GroundPoint(eye.latitude_deg, eye.longitude_deg))
+            : world::RegionsAt();
+    const world::SeaState state = world::sea_at(surfaces, regions);
+    render::Sea sea;
+    sea.height_m = state.height_m;
+    sea.temperature_c = state.temperature_c;
+    sea.clarity = state.clarity_pct / 100.0;
+    sea.whitecaps = state.whitecaps;
+    for (const world::WaveAt& at : world::WavesAt(surfaces, regions))
+        sea.waves[sea.wave_count++] = wave_of(at);
+    return sea;
+}
+
 double elevation_deg(const glm::dvec3& direction) noexcept {
     return std::atan2(direction.z, std::hypot(direction.x, direction.y)) / kRadPerDeg;
 }
@@ -118,6 +151,7 @@ render::Scene SceneBuilder::build(const world::World& world, std::uint64_t frame
     const ephemeris::Geodetic eye{scene.eye.latitude_deg, scene.eye.longitude_deg, scene.eye.height_m};
     light(clockwork_.state(instant_, eye), world.celestial(), scene);
     scene.air = air_of(world.air());
+    scene.sea = sea_of(world, scene.eye);
     return scene;
 }
 

@@ -10,6 +10,7 @@
 
 #include "protocol/cigi/layout_host.h"
 #include "protocol/cigi/layout_ig.h"
+#include "protocol/cigi/layout_sight.h"
 #include "protocol/cigi/message.h"
 
 namespace skyig::clients {

@@ -8,6 +8,7 @@
 #include "protocol/cigi/layout.h"
 #include "protocol/cigi/layout_host.h"
 #include "protocol/cigi/layout_ig.h"
+#include "protocol/cigi/layout_sight.h"
 
 namespace skyig::protocol::cigi {
 namespace {

@@ -117,6 +117,24 @@ struct Layout<RateControl> {
 };
 
 template <>
+struct Layout<AccelerationControl> {
+    static constexpr std::string_view kName = "acceleration_control";
+    static constexpr Shape k33{};
+    static constexpr Shape k40{0x0013, 32};
+    static constexpr auto kFields = std::make_tuple(
+        field("entity_id", &AccelerationControl::entity_id, kAbsent, at(4)),
+        field("part_id", &AccelerationControl::part_id, kAbsent, at(6)),
+        field("apply_to_part", &AccelerationControl::apply_to_part, kAbsent, bits(7, 0, 1)),
+        field("coordinate_system", &AccelerationControl::coordinate_system, kAbsent, bits(7, 1, 1)),
+        field("x_acceleration", &AccelerationControl::x_acceleration, kAbsent, at(8)),
+        field("y_acceleration", &AccelerationControl::y_acceleration, kAbsent, at(12)),
+        field("z_acceleration", &AccelerationControl::z_acceleration, kAbsent, at(16)),
+        field("roll_acceleration", &AccelerationControl::roll_acceleration, kAbsent, at(20)),
+        field("pitch_acceleration", &AccelerationControl::pitch_acceleration, kAbsent, at(24)),
+        field("yaw_acceleration", &AccelerationControl::yaw_acceleration, kAbsent, at(28)));
+};
+
+template <>
 struct Layout<ComponentControl> {
     static constexpr std::string_view kName = "component_control";
     static constexpr Shape k33{4, 32};

@@ -139,7 +139,9 @@ MessageSummary decode_message(std::span<const std::byte> bytes, const FirstPacke
             ++counters[Count::kSkipped];
             if constexpr (requires { handler.skipped(info); }) handler.skipped(info);
         } else if (kind == First && info.offset != 0) {
-            pass_over(handler, kind, duplicate, info, counters);
+            // Of another size it is not even a second one.
+            const bool whole = info.bytes.size() == kFirstPacketBytes;
+            pass_over(handler, kind, whole ? duplicate : Count::kWrongSize, info, counters);
         } else {
             decode_kind<First>(kind, info, handler, counters, validation, std::make_index_sequence<Kinds>{});
         }

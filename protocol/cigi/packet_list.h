@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "protocol/cigi/packets.h"
+#include "protocol/cigi/packets_sight.h"
 
 namespace skyig::protocol::cigi {
 
@@ -19,6 +20,7 @@ namespace skyig::protocol::cigi {
     X(EntityPosition)              \
     X(ConformalClamped)            \
     X(RateControl)                 \
+    X(AccelerationControl)         \
     X(ComponentControl)            \
     X(ShortComponentControl)       \
     X(CelestialSphereControl)      \
@@ -32,12 +34,16 @@ namespace skyig::protocol::cigi {
     X(ViewDefinition)              \
     X(EarthModelDefinition)        \
     X(HatHotRequest)               \
+    X(LosSegmentRequest)           \
+    X(LosVectorRequest)            \
     X(PositionRequest)             \
     X(EnvConditionsRequest)
 #define SKYIG_CIGI_IG_PACKETS(X)  \
     X(StartOfFrame)               \
     X(HatHotResponse)             \
     X(HatHotExtendedResponse)     \
+    X(LosResponse)                \
+    X(LosExtendedResponse)        \
     X(PositionResponse)           \
     X(WeatherConditionsResponse)  \
     X(AerosolResponse)            \

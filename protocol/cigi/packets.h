@@ -141,6 +141,20 @@ struct RateControl {
     float yaw_rate = 0.0F;
 };
 
+/// [4.0] Accelerations that change those velocities; they stay until replaced.
+struct AccelerationControl {
+    std::uint16_t entity_id = 0;
+    std::uint8_t part_id = 0;
+    bool apply_to_part = false;
+    bool coordinate_system = false;  // as in RateControl, and of its own
+    float x_acceleration = 0.0F;     // m/s2
+    float y_acceleration = 0.0F;
+    float z_acceleration = 0.0F;
+    float roll_acceleration = 0.0F;  // deg/s2
+    float pitch_acceleration = 0.0F;
+    float yaw_acceleration = 0.0F;
+};
+
 struct ComponentControl {
     std::uint16_t component_id = 0;
     std::uint16_t instance_id = 0;

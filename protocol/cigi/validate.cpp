@@ -13,6 +13,7 @@
 #include "protocol/cigi/layout.h"
 #include "protocol/cigi/layout_host.h"
 #include "protocol/cigi/layout_ig.h"
+#include "protocol/cigi/layout_sight.h"
 
 namespace skyig::protocol::cigi {
 namespace {
@@ -182,13 +183,24 @@ void check_fields(P& packet, Version version, Verdict& verdict) noexcept {
     });
 }
 
+void check_geodetic(double latitude, double& longitude, std::string_view latitude_field,
+                    std::string_view longitude_field, Verdict& verdict) noexcept {
+    if (latitude < -90.0 || latitude > 90.0) {
+        verdict = refuse(Count::kOutOfRange, latitude_field);
+    } else if (!wrap(longitude, Range::Kind::kHalfTurn)) {
+        verdict = refuse(Count::kOutOfRange, longitude_field);
+    }
+}
+
 template <class P>
 void check_geodetic(P& packet, Verdict& verdict) noexcept {
-    if (packet.lat_x < -90.0 || packet.lat_x > 90.0) {
-        verdict = refuse(Count::kOutOfRange, "lat_x");
-    } else if (!wrap(packet.lon_y, Range::Kind::kHalfTurn)) {
-        verdict = refuse(Count::kOutOfRange, "lon_y");
-    }
+    check_geodetic(packet.lat_x, packet.lon_y, "lat_x", "lon_y", verdict);
+}
+
+template <class P>
+void check_source(P& packet, Verdict& verdict) noexcept {
+    if (packet.source_coordinate_system) return;
+    check_geodetic(packet.source_lat_x, packet.source_lon_y, "source_lat_x", "source_lon_y", verdict);
 }
 
 // prepare: what a sender is known to do wrong, mended before the fields are checked.
@@ -229,6 +241,19 @@ void check_together(EntityPosition& packet, Version /*version*/, Verdict& verdic
 template <>
 void check_together(HatHotRequest& packet, Version /*version*/, Verdict& verdict) noexcept {
     if (!packet.coordinate_system) check_geodetic(packet, verdict);
+}
+
+template <>
+void check_together(LosSegmentRequest& packet, Version /*version*/, Verdict& verdict) noexcept {
+    check_source(packet, verdict);
+    if (!verdict.accepted || packet.destination_coordinate_system) return;
+    check_geodetic(packet.destination_lat_x, packet.destination_lon_y, "destination_lat_x",
+                   "destination_lon_y", verdict);
+}
+
+template <>
+void check_together(LosVectorRequest& packet, Version /*version*/, Verdict& verdict) noexcept {
+    check_source(packet, verdict);
 }
 
 template <>

@@ -5,7 +5,6 @@
 #include <system_error>
 #include <utility>
 
-#include "protocol/recording/link_layer.h"
 #include "protocol/recording/pcapng_blocks.h"
 
 namespace skyig::protocol::recording {
@@ -16,7 +15,7 @@ std::string located(const std::string& name, const Trouble& trouble) {
 }
 
 std::string unknown_head(std::span<const std::byte> head) {
-    if (head.empty()) return "empty; a pcapng or pcap capture is read";
+    if (head.empty()) return "empty; a pcapng or pcap capture or a candump log is read";
     constexpr std::byte kGzip[] = {std::byte{0x1F}, std::byte{0x8B}};
     if (head.size() >= 2 && head[0] == kGzip[0] && head[1] == kGzip[1])
         return "compressed with gzip; unpack it first (gunzip)";
@@ -25,7 +24,7 @@ std::string unknown_head(std::span<const std::byte> head) {
         hex += fmt::format("{:02X} ", static_cast<unsigned>(each));
     return fmt::format(
         "{}is the head of no capture; pcapng begins with 0A 0D 0D 0A, pcap with A1 B2 C3 D4 or "
-        "A1 B2 3C 4D or their reverse",
+        "A1 B2 3C 4D or their reverse, a candump log with a time stamp in round brackets",
         hex);
 }
 
@@ -71,6 +70,8 @@ Result<CaptureReader, std::string> CaptureReader::begin(ByteWindow window, std::
     Format format;
     if (PcapReader::recognises(head)) {
         format.emplace<PcapReader>();
+    } else if (CandumpReader::recognises(head)) {
+        format.emplace<CandumpReader>();
     } else if (head.size() < 4 || load<std::uint32_t>(head.data(), kNativeOrder) != pcapng::block::kSection) {
         return Error{located(name, {0, unknown_head(head)})};
     }
@@ -110,10 +111,19 @@ const CapturedPacket* CaptureReader::next() {
     return nullptr;
 }
 
+Contents CaptureReader::take_contents() noexcept {
+    if (raw_.frame != nullptr) {
+        packet_.kind = CapturedPacket::Kind::kCan;
+        packet_.can = *raw_.frame;
+        return Contents::kCan;
+    }
+    const bool whole = raw_.bytes.size() >= raw_.original_bytes;
+    return take_apart(raw_.origin->link_type, raw_.bytes, whole, raw_.file_order, packet_);
+}
+
 /// Brings the raw packet into `packet_`; false if it is none for us.
 bool CaptureReader::take_packet() noexcept {
-    const bool whole = raw_.bytes.size() >= raw_.original_bytes;
-    const Contents contents = take_apart(raw_.origin->link_type, raw_.bytes, whole, raw_.file_order, packet_);
+    const Contents contents = take_contents();
     ++counter_of(counters_, contents);
     if (contents != Contents::kUdp && contents != Contents::kCan) return false;
     packet_.stamped = raw_.stamped;

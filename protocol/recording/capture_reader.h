@@ -1,5 +1,5 @@
 // Reads captures as tcpdump, Wireshark and this project's recorder write them: pcapng and pcap, in either
-// byte order, from a file, a pipe or memory, in fixed memory however long they are.
+// byte order, and candump logs, from a file, a pipe or memory, in fixed memory however long they are.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,9 @@
 #include <variant>
 
 #include "protocol/recording/byte_window.h"
+#include "protocol/recording/candump_reader.h"
 #include "protocol/recording/capture.h"
+#include "protocol/recording/link_layer.h"
 #include "protocol/recording/pcap_reader.h"
 #include "protocol/recording/pcapng_reader.h"
 #include "protocol/result.h"
@@ -43,19 +45,21 @@ class CaptureReader {
     [[nodiscard]] const CaptureCounters& counters() const noexcept { return counters_; }
 
     /// Those of the section that is being read, as far as it has described them; sections mostly describe all
-    /// of theirs before the first packet. A pcap file is one section with one interface.
+    /// of theirs before the first packet. A pcap file is one section with one interface, a candump log one
+    /// with those that its lines have named so far.
     [[nodiscard]] std::span<const CaptureInterface> interfaces() const noexcept;
     /// The interface of the packet that next() has just given.
     [[nodiscard]] const CaptureInterface& interface_of_last() const noexcept;
-    /// Free text, lines separated by line feeds; empty in pcap files.
+    /// Free text, lines separated by line feeds; empty in pcap files and logs.
     [[nodiscard]] std::string_view section_comment() const noexcept;
 
   private:
-    using Format = std::variant<PcapngReader, PcapReader>;
+    using Format = std::variant<PcapngReader, PcapReader, CandumpReader>;
 
     CaptureReader(ByteWindow window, Format format, std::string name) noexcept;
     [[nodiscard]] static Result<CaptureReader, std::string> begin(ByteWindow window, std::string name);
     [[nodiscard]] Step step();
+    [[nodiscard]] Contents take_contents() noexcept;
     [[nodiscard]] bool take_packet() noexcept;
     void finish(Step last);
 

@@ -18,6 +18,8 @@ struct RawPacket {
     bool stamped = true;
     std::uint32_t interface = 0;  // counted on over the sections
     const CaptureInterface* origin = nullptr;
+    /// A CAN frame of a file that holds it taken apart, in place of its bytes; else null.
+    const CanFrame* frame = nullptr;
     std::span<const std::byte> bytes;
     std::uint64_t original_bytes = 0;  // on the wire; more than bytes.size() if captured with a limit
     std::string_view comment;

@@ -12,6 +12,7 @@ using protocol::cigi::EnvRegionControl;
 using protocol::cigi::MaritimeSurfaceControl;
 using protocol::cigi::RegionState;
 using protocol::cigi::TerrestrialSurfaceControl;
+using protocol::cigi::WaveControl;
 using protocol::cigi::WeatherControl;
 using protocol::cigi::WeatherScope;
 
@@ -139,8 +140,13 @@ double layer_weight(const WeatherControl& layer, double height_m) noexcept {
     return outside_m < band_m ? 1.0 - outside_m / band_m : 0.0;
 }
 
-AirState air_at(const AirState& base, const WeatherStore& weather, const RegionsAt& regions,
-                double height_m) noexcept {
+void CarriedAt::add(const WeatherControl& weather, double distance_m) noexcept {
+    const double radius_m = static_cast<double>(weather.transition_band);
+    if (count_ < kMost && distance_m < radius_m) all_[count_++] = {&weather, 1.0 - distance_m / radius_m};
+}
+
+AirState air_at(const AirState& base, const WeatherStore& weather, const RegionsAt& regions, double height_m,
+                std::span<const CarriedWeather> carried) noexcept {
     Blend<kAirTogether.size()> blend(
         air_values(base.visibility_m, base.temperature_c, base.humidity_pct, base.pressure_hpa,
                    base.wind_horizontal_m_s, base.wind_from_deg, base.wind_vertical_m_s),
@@ -158,6 +164,9 @@ AirState air_at(const AirState& base, const WeatherStore& weather, const Regions
         each_layer(weather.layers_of(WeatherScope::kRegional, at.region->region_id), at.weight, height_m,
                    cover, add);
     }
+    blend.cover();
+    for (const CarriedWeather& on_entity : carried)
+        add(*on_entity.weather, on_entity.weight);
     blend.cover();
     return blend.touched() ? air_of(base, blend.values()) : base;
 }
@@ -192,11 +201,12 @@ Aerosols aerosols_at(const WeatherStore& weather, const RegionsAt& regions, doub
 
 SeaState sea_at(const SurfaceStore& surfaces, const RegionsAt& regions) noexcept {
     const SeaState calm;
-    Blend<3> blend({calm.height_m, calm.temperature_c, calm.clarity_pct},
-                   {Together::kMean, Together::kMean, Together::kMean});
+    Blend<4> blend({calm.height_m, calm.temperature_c, calm.clarity_pct, calm.whitecaps},
+                   {Together::kMean, Together::kMean, Together::kMean, Together::kMean});
     const auto add = [&blend](double weight, const MaritimeSurfaceControl& sea) {
-        blend.add(weight, {static_cast<double>(sea.sea_surface_height),
-                           static_cast<double>(sea.water_temperature), static_cast<double>(sea.clarity)});
+        blend.add(weight,
+                  {static_cast<double>(sea.sea_surface_height), static_cast<double>(sea.water_temperature),
+                   static_cast<double>(sea.clarity), sea.whitecap_enable ? 1.0 : 0.0});
     };
     if (const MaritimeSurfaceControl* sea = surfaces.sea(WeatherScope::kGlobal, 0)) add(1.0, *sea);
     bool over_global = false;
@@ -207,7 +217,48 @@ SeaState sea_at(const SurfaceStore& surfaces, const RegionsAt& regions) noexcept
         add(at.weight, *sea);
     }
     blend.cover();
-    return {blend.values()[0], blend.values()[1], blend.values()[2]};
+    return {blend.values()[0], blend.values()[1], blend.values()[2], blend.values()[3]};
+}
+
+SeaState sea_below(const WeatherStore& weather, const SurfaceStore& surfaces,
+                   const ephemeris::Geodetic& point) noexcept {
+    if (!surfaces.has_regional_sea()) return sea_at(surfaces, {});
+    return sea_at(surfaces, {weather, GroundPoint(point.latitude_deg, point.longitude_deg)});
+}
+
+WavesAt::WavesAt(const SurfaceStore& surfaces, const RegionsAt& regions) noexcept {
+    const auto enabled = [](const WaveControl& wave) { return wave.wave_enable; };
+    for (const WaveControl& wave : surfaces.waves(WeatherScope::kGlobal, 0))
+        if (wave.wave_enable) add(wave, 1.0);
+    bool over_global = false;
+    for (const RegionAt& at : regions) {
+        const auto here = surfaces.waves(WeatherScope::kRegional, at.region->region_id);
+        if (std::none_of(here.begin(), here.end(), enabled)) continue;
+        if (!std::exchange(over_global, true) || !at.region->merge_maritime) cover(at.weight);
+        for (const WaveControl& wave : here)
+            if (wave.wave_enable) add(wave, at.weight);
+    }
+}
+
+void WavesAt::cover(double weight) noexcept {
+    for (std::size_t i = 0; i < count_; ++i)
+        waves_[i].weight *= 1.0 - weight;
+    const auto gone = std::remove_if(waves_.begin(), waves_.begin() + static_cast<std::ptrdiff_t>(count_),
+                                     [](const WaveAt& at) { return at.weight <= 0.0; });
+    count_ = static_cast<std::size_t>(gone - waves_.begin());
+}
+
+void WavesAt::add(const WaveControl& wave, double weight) noexcept {
+    if (count_ < kMost) {
+        waves_[count_++] = {&wave, weight};
+        return;
+    }
+    const auto height_m = [](const WaveAt& at) { return static_cast<double>(at.wave->height) * at.weight; };
+    const auto lowest =
+        std::min_element(waves_.begin(), waves_.end(),
+                         [&height_m](const WaveAt& a, const WaveAt& b) { return height_m(a) < height_m(b); });
+    const WaveAt made{&wave, weight};
+    if (height_m(*lowest) < height_m(made)) *lowest = made;
 }
 
 GroundConditions::GroundConditions(const SurfaceStore& surfaces, const RegionsAt& regions) noexcept {

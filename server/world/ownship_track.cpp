@@ -16,21 +16,8 @@ constexpr double kFastestTurn_rad_s = 15.0;
 constexpr double kOffsetDrift = 2e-4;
 /// A delay that grows by more than this at once is a sender that began anew.
 constexpr double kOffsetJump_s = 2.0;
-
-/// Rotation vector of the shorter way round.
-glm::dvec3 rotation_vector(glm::dquat turn) noexcept {
-    if (turn.w < 0.0) turn = -turn;
-    const glm::dvec3 axis(turn.x, turn.y, turn.z);
-    const double sine = glm::length(axis);
-    // For a small turn the half angle's sine is the half angle.
-    return sine < 1e-12 ? 2.0 * axis : axis * (2.0 * std::atan2(sine, turn.w) / sine);
-}
-
-glm::dquat turn_by(const glm::dvec3& rotation) noexcept {
-    const double angle = glm::length(rotation);
-    const double scale = angle < 1e-12 ? 0.5 : std::sin(0.5 * angle) / angle;
-    return {std::cos(0.5 * angle), rotation.x * scale, rotation.y * scale, rotation.z * scale};
-}
+/// Told motion begins anew after this: what it integrates stays short.
+constexpr double kLongestTold_s = 10.0;
 
 }  // namespace
 
@@ -59,12 +46,20 @@ bool SenderOffset::learn(double arrival_s, double sender_s) noexcept {
 
 void OwnshipTrack::reset(const Pose& pose) noexcept {
     *this = {};
+    stand_at(pose);
+}
+
+void OwnshipTrack::stand_at(const Pose& pose) noexcept {
     pose_ = pose;
+    ecef_m_ = ecef_of(pose.position);
+    ned_from_body_ = ned_from_body(pose.yaw_deg, pose.pitch_deg, pose.roll_deg);
 }
 
 void OwnshipTrack::report_position(const ephemeris::Geodetic& position, double arrival_s,
                                    std::optional<double> sender_s) noexcept {
     const glm::dvec3 ecef_m = ecef_of(position);
+    // The motion goes on as it is by now; the place is what is told.
+    if (motion_.moves()) begin_anew(told_at_s(arrival_s, sender_s));
     if (velocity_told_s_ && arrival_s - *velocity_told_s_ > kLongest_s) {
         velocity_told_s_.reset();
         velocity_ecef_m_s_.reset();
@@ -120,8 +115,55 @@ void OwnshipTrack::learn_turn(const glm::dquat& attitude, double step_s) noexcep
     if (step_s == 0.0) return;
     turn_rad_s_ = {};
     if (step_s < 0.0 || step_s > kLongestGap_s) return;
-    const glm::dvec3 turn = rotation_vector(glm::conjugate(ned_from_body_) * attitude) / step_s;
+    const glm::dvec3 turn = rotation_vector_rad(glm::conjugate(ned_from_body_) * attitude) / step_s;
     if (glm::length(turn) <= kFastestTurn_rad_s) turn_rad_s_ = turn;
+}
+
+double OwnshipTrack::told_at_s(double arrival_s, std::optional<double> sender_s) const noexcept {
+    return sender_s && position_offset_.known() ? *sender_s + position_offset_.value_s() : arrival_s;
+}
+
+bool OwnshipTrack::tell_velocity(RateAxes axes, const Rates& velocity, double arrival_s,
+                                 std::optional<double> sender_s) noexcept {
+    ToldMotion told = motion_;
+    if (!told.tell_velocity(axes, velocity)) return false;
+    // A host that flies by places may say in every message that it tells no rates.
+    if (!told.moves() && !motion_.moves()) return true;
+    begin_anew(told_at_s(arrival_s, sender_s));
+    return motion_.tell_velocity(axes, velocity);
+}
+
+bool OwnshipTrack::tell_acceleration(RateAxes axes, const Rates& acceleration, double arrival_s,
+                                     std::optional<double> sender_s) noexcept {
+    ToldMotion told = motion_;
+    if (!told.tell_acceleration(axes, acceleration)) return false;
+    if (!told.moves() && !motion_.moves()) return true;
+    begin_anew(told_at_s(arrival_s, sender_s));
+    return motion_.tell_acceleration(axes, acceleration);
+}
+
+void OwnshipTrack::carry_told(bool on, double now_s) noexcept {
+    if (on == carried_) return;
+    if (motion_.moves()) begin_anew(now_s);
+    carried_ = on;
+}
+
+void OwnshipTrack::advance(double now_s) noexcept {
+    if (motion_.moves() && now_s - position_s_ > kLongestTold_s) begin_anew(now_s);
+}
+
+void OwnshipTrack::begin_anew(double at_s) noexcept {
+    const double step_s = at_s - position_s_;
+    // Told later, of an instant before the last: it holds from the last on.
+    if (motion_.moves() && step_s <= 0.0) return;
+    stand_at(at(at_s));
+    if (carried_ && motion_.moves()) motion_ = motion_.later(step_s);
+    velocity_ecef_m_s_.reset();
+    velocity_told_s_.reset();
+    turn_rad_s_ = {};
+    position_sender_s_.reset();
+    attitude_sender_s_.reset();
+    position_s_ = attitude_s_ = at_s;
 }
 
 double OwnshipTrack::ahead_s(double now_s, double reported_s) noexcept {
@@ -130,6 +172,10 @@ double OwnshipTrack::ahead_s(double now_s, double reported_s) noexcept {
 
 Pose OwnshipTrack::at(double now_s) const noexcept {
     Pose pose = pose_;
+    if (motion_.moves()) {
+        const double step_s = now_s - position_s_;
+        return carried_ && step_s > 0.0 ? motion_.after(pose, step_s) : pose;
+    }
     const double moved_s = ahead_s(now_s, position_s_);
     if (velocity_ecef_m_s_ && *velocity_ecef_m_s_ != glm::dvec3{0.0} && moved_s > 0.0)
         pose.position = geodetic_of(ecef_m_ + *velocity_ecef_m_s_ * moved_s);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <GeographicLib/Geocentric.hpp>
+#include <GeographicLib/Geodesic.hpp>
 #include <GeographicLib/Math.hpp>
 #include <numbers>
 
@@ -10,6 +11,8 @@ namespace skyig::server::world {
 namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+/// Of the Earth; within 0.4 % of its radii of curvature.
+constexpr double kMeanRadius_m = 6'371'000.0;
 
 glm::dmat3 ecef_from_ned(const ephemeris::Geodetic& place) noexcept {
     return {ecef_from_enu(place, {0.0, 1.0, 0.0}), ecef_from_enu(place, {1.0, 0.0, 0.0}),
@@ -67,6 +70,37 @@ void set_attitude(Pose& pose, const glm::dquat& turn) noexcept {
         std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z)) / kRadPerDeg;
     pose.roll_deg =
         std::atan2(2.0 * (q.w * q.x + q.y * q.z), 1.0 - 2.0 * (q.x * q.x + q.y * q.y)) / kRadPerDeg;
+}
+
+glm::dquat turn_by(const glm::dvec3& rotation_rad) noexcept {
+    const double angle = glm::length(rotation_rad);
+    const double scale = angle < 1e-12 ? 0.5 : std::sin(0.5 * angle) / angle;
+    return {std::cos(0.5 * angle), rotation_rad.x * scale, rotation_rad.y * scale, rotation_rad.z * scale};
+}
+
+glm::dvec3 rotation_vector_rad(glm::dquat turn) noexcept {
+    if (turn.w < 0.0) turn = -turn;
+    const glm::dvec3 axis(turn.x, turn.y, turn.z);
+    const double sine = glm::length(axis);
+    // For a small turn the half angle's sine is the half angle.
+    return sine < 1e-12 ? 2.0 * axis : axis * (2.0 * std::atan2(sine, turn.w) / sine);
+}
+
+GroundStep step_over_ground(const ephemeris::Geodetic& from, const glm::dvec3& ned_m) noexcept {
+    GroundStep step{from};
+    const double path_m = std::hypot(ned_m.x, ned_m.y);
+    if (path_m > 0.0) {
+        const double azimuth_deg = std::atan2(ned_m.y, ned_m.x) / kRadPerDeg;
+        const double ground_m = path_m * kMeanRadius_m / (kMeanRadius_m + from.height_m);
+        double end_azimuth_deg = azimuth_deg;
+        GeographicLib::Geodesic::WGS84().Direct(from.latitude_deg, from.longitude_deg, azimuth_deg, ground_m,
+                                                step.place.latitude_deg, step.place.longitude_deg,
+                                                end_azimuth_deg);
+        step.convergence_deg = std::remainder(end_azimuth_deg - azimuth_deg, 360.0);
+    }
+    step.place.height_m =
+        std::clamp(from.height_m - ned_m.z, ephemeris::kMinEyeHeight_m, ephemeris::kMaxEyeHeight_m);
+    return step;
 }
 
 Pose pose_on(const Pose& carrier, const glm::dvec3& offset_m, const glm::dquat& body_from_part) noexcept {

@@ -31,6 +31,22 @@ struct Pose {
 /// and roll are one turn: all of it is yaw.
 void set_attitude(Pose& pose, const glm::dquat& turn) noexcept;
 
+/// Turn by |rotation_rad| about the direction of `rotation_rad`.
+[[nodiscard]] glm::dquat turn_by(const glm::dvec3& rotation_rad) noexcept;
+/// The inverse, the shorter way round.
+[[nodiscard]] glm::dvec3 rotation_vector_rad(glm::dquat turn) noexcept;
+
+/// A place reached over the ground, and how far north has turned on the way.
+struct GroundStep {
+    ephemeris::Geodetic place;
+    /// Azimuth of the path at its end less that at its start.
+    double convergence_deg = 0.0;
+};
+
+/// Along the geodesic that sets out by `ned_m`, its length that of the path at the height of `from`; the
+/// height changes by the third part alone, held within what can be drawn. Poles are no obstacle.
+[[nodiscard]] GroundStep step_over_ground(const ephemeris::Geodetic& from, const glm::dvec3& ned_m) noexcept;
+
 /// Where something is that stands at `offset_m` along the carrier's axes (forward, right, down), turned by
 /// `body_from_part`. Its angles are against north-east-down at its own place; without offset its place is the
 /// carrier's to the last bit.

@@ -1,14 +1,23 @@
 #include "server/world/requests.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace skyig::server::world {
 
 using protocol::cigi::EnvConditionsRequest;
 using protocol::cigi::HatHotRequest;
+using protocol::cigi::LosSegmentRequest;
+using protocol::cigi::LosVectorRequest;
 using protocol::cigi::PositionRequest;
 
 namespace {
+
+std::optional<std::uint16_t> id_of_sight(const Request& request) noexcept {
+    if (const auto* segment = std::get_if<LosSegmentRequest>(&request)) return segment->request_id;
+    if (const auto* vector = std::get_if<LosVectorRequest>(&request)) return vector->request_id;
+    return std::nullopt;
+}
 
 /// One takes the other's place.
 bool same_matter(const Request& a, const Request& b) noexcept {
@@ -16,6 +25,7 @@ bool same_matter(const Request& a, const Request& b) noexcept {
         const auto* other = std::get_if<HatHotRequest>(&b);
         return other != nullptr && hat->request_id == other->request_id;
     }
+    if (const auto sight = id_of_sight(a)) return sight == id_of_sight(b);
     if (const auto* position = std::get_if<PositionRequest>(&a)) {
         const auto* other = std::get_if<PositionRequest>(&b);
         return other != nullptr && position->object_class == other->object_class &&
@@ -31,13 +41,23 @@ Requests::Requests() : waiting_(kMostWaiting) {
 }
 
 bool Requests::ask(const HatHotRequest& request) noexcept {
-    if (request.update_period > 0) return stand(request, request.update_period);
-    forget_standing(request);
-    return push(request, false);
+    return ask_again(request, request.update_period);
+}
+
+bool Requests::ask(const LosSegmentRequest& request) noexcept {
+    return ask_again(request, request.update_period);
+}
+
+bool Requests::ask(const LosVectorRequest& request) noexcept {
+    return ask_again(request, request.update_period);
 }
 
 bool Requests::ask(const PositionRequest& request) noexcept {
-    if (request.update_mode) return stand(request, 1);
+    return ask_again(request, request.update_mode ? 1 : 0);
+}
+
+bool Requests::ask_again(const Request& request, std::uint32_t period_frames) noexcept {
+    if (period_frames > 0) return stand(request, period_frames);
     forget_standing(request);
     return push(request, false);
 }

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "protocol/cigi/packets.h"
+#include "protocol/cigi/packets_sight.h"
 
 namespace skyig::server::world {
 
-using Request = std::variant<protocol::cigi::HatHotRequest, protocol::cigi::PositionRequest,
+using Request = std::variant<protocol::cigi::HatHotRequest, protocol::cigi::LosSegmentRequest,
+                             protocol::cigi::LosVectorRequest, protocol::cigi::PositionRequest,
                              protocol::cigi::EnvConditionsRequest>;
 
 /// First asked, first answered. A standing request takes its turn in the same row each time it is due, and
@@ -26,8 +28,10 @@ class Requests {
 
     // False when there is no room: the request is forgotten.
 
-    /// With an update period it stands until another one of the same id comes.
+    // With an update period it stands until another one of the same id comes; both kinds of sight share ids.
     bool ask(const protocol::cigi::HatHotRequest& request) noexcept;
+    bool ask(const protocol::cigi::LosSegmentRequest& request) noexcept;
+    bool ask(const protocol::cigi::LosVectorRequest& request) noexcept;
     /// In continuous mode it stands until another one for the same object comes.
     bool ask(const protocol::cigi::PositionRequest& request) noexcept;
     bool ask(const protocol::cigi::EnvConditionsRequest& request) noexcept;
@@ -56,6 +60,7 @@ class Requests {
     };
 
     bool push(const Request& request, bool standing) noexcept;
+    bool ask_again(const Request& request, std::uint32_t period_frames) noexcept;
     bool stand(const Request& request, std::uint32_t period_frames) noexcept;
     Standing* find_standing(const Request& like) noexcept;
     void forget_standing(const Request& like) noexcept;

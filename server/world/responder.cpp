@@ -26,7 +26,7 @@ constexpr unsigned kViewGroup = 3;
 /// Coordinate systems.
 constexpr unsigned kParent = 1;
 
-/// Offsets from the ownship beyond this are none.
+/// Offsets from an entity beyond this are none.
 constexpr double kLongestOffset_m = 1e7;
 
 glm::dquat parent_from_child(const ViewPose& pose) noexcept {
@@ -88,15 +88,31 @@ cigi::PositionResponse position_response(const cigi::PositionRequest& request, c
     return response;
 }
 
+cigi::PositionResponse geodetic_response(const cigi::PositionRequest& request, const Pose& pose) noexcept {
+    const auto& [latitude_deg, longitude_deg, height_m] = pose.position;
+    return position_response(request, {latitude_deg, std::remainder(longitude_deg, 360.0), height_m}, pose);
+}
+
+void respond_with_entity(const World& world, const cigi::PositionRequest& request,
+                         Responses& responses) noexcept {
+    const Entity* entity = world.entity(request.object_id);
+    if (request.coordinate_system == kParent && entity != nullptr && entity->attached) {
+        cigi::PositionResponse response = position_response(request, entity->offset_m, entity->on_parent);
+        response.coordinate_system = kParent;
+        responses.add(response);
+        return;
+    }
+    // What is attached to nothing has no parent's coordinates: the response says geodetic.
+    if (const auto pose = world.entity_pose(request.object_id))
+        responses.add(geodetic_response(request, *pose));
+}
+
 void respond_to(const World& world, const cigi::PositionRequest& request, Responses& responses) noexcept {
     // What it named when it was asked may be gone by now.
     if (!can_answer(world, request)) return;
     const Ownship& ownship = world.ownship();
     if (request.object_class == kEntity) {
-        // Attached to nothing, the ownship has no parent's coordinates: the response says geodetic.
-        const auto& [latitude_deg, longitude_deg, height_m] = ownship.position;
-        responses.add(position_response(
-            request, {latitude_deg, std::remainder(longitude_deg, 360.0), height_m}, ownship));
+        respond_with_entity(world, request, responses);
         return;
     }
     const OnOwnship on = place_of(world, request);
@@ -108,15 +124,11 @@ void respond_to(const World& world, const cigi::PositionRequest& request, Respon
         responses.add(response);
         return;
     }
-    const Pose pose = pose_on(ownship, on.offset_m, on.turn);
-    const auto& [latitude_deg, longitude_deg, height_m] = pose.position;
-    responses.add(
-        position_response(request, {latitude_deg, std::remainder(longitude_deg, 360.0), height_m}, pose));
+    responses.add(geodetic_response(request, pose_on(ownship, on.offset_m, on.turn)));
 }
 
-SeaState sea_below(const World& world, const ephemeris::Geodetic& point) noexcept {
-    if (!world.surfaces().has_regional_sea()) return sea_at(world.surfaces(), {});
-    return sea_at(world.surfaces(), {world.weather(), GroundPoint(point.latitude_deg, point.longitude_deg)});
+std::uint8_t frame_lsn(const World& world) noexcept {
+    return static_cast<std::uint8_t>(world.session().last_host_frame_number() & 0xFU);
 }
 
 /// Nothing for a point of which nothing can be said.
@@ -124,9 +136,10 @@ std::optional<ephemeris::Geodetic> point_of(const World& world, const cigi::HatH
     ephemeris::Geodetic point{request.lat_x, request.lon_y, request.alt_z};
     if (request.coordinate_system) {
         const glm::dvec3 offset_m{request.lat_x, request.lon_y, request.alt_z};
+        const std::optional<Pose> carrier = world.entity_pose(request.entity_id);
         // Not a number is no offset either.
-        if (request.entity_id != 0 || !(glm::length(offset_m) <= kLongestOffset_m)) return std::nullopt;
-        point = pose_on(world.ownship(), offset_m, {1.0, 0.0, 0.0, 0.0}).position;
+        if (!carrier || !(glm::length(offset_m) <= kLongestOffset_m)) return std::nullopt;
+        point = pose_on(*carrier, offset_m, {1.0, 0.0, 0.0, 0.0}).position;
     }
     if (!ephemeris::is_valid(point)) return std::nullopt;
     return point;
@@ -134,9 +147,9 @@ std::optional<ephemeris::Geodetic> point_of(const World& world, const cigi::HatH
 
 void respond_to(const World& world, const cigi::HatHotRequest& request, Responses& responses) noexcept {
     const std::optional<ephemeris::Geodetic> point = point_of(world, request);
-    const double ground_m = point ? sea_below(world, *point).height_m : 0.0;
+    const double ground_m = point ? sea_below(world.weather(), world.surfaces(), *point).height_m : 0.0;
     const double above_m = point ? point->height_m - ground_m : 0.0;
-    const auto frame = static_cast<std::uint8_t>(world.session().last_host_frame_number() & 0xFU);
+    const std::uint8_t frame = frame_lsn(world);
     if (request.request_type == cigi::HatHotType::kExtended) {
         cigi::HatHotExtendedResponse response;
         response.request_id = request.request_id;
@@ -151,6 +164,41 @@ void respond_to(const World& world, const cigi::HatHotRequest& request, Response
     const bool hot = request.request_type == cigi::HatHotType::kHot;
     responses.add(
         cigi::HatHotResponse{request.request_id, point.has_value(), hot, frame, hot ? ground_m : above_m});
+}
+
+/// One response, and that it says nothing.
+template <class LosRequest>
+void respond_to_sight(const World& world, const LosRequest& request, Responses& responses) noexcept {
+    const auto blank = [&](auto response) {
+        response.request_id = request.request_id;
+        response.host_frame_lsn = frame_lsn(world);
+        response.response_count = 1;
+        responses.add(response);
+    };
+    if (request.request_type) {
+        blank(cigi::LosExtendedResponse{});
+    } else {
+        blank(cigi::LosResponse{});
+    }
+}
+
+void respond_to(const World& world, const cigi::LosSegmentRequest& request, Responses& responses) noexcept {
+    respond_to_sight(world, request, responses);
+}
+
+void respond_to(const World& world, const cigi::LosVectorRequest& request, Responses& responses) noexcept {
+    respond_to_sight(world, request, responses);
+}
+
+CarriedAt carried_to(const World& world, const ephemeris::Geodetic& point) noexcept {
+    CarriedAt carried;
+    const glm::dvec3 point_ecef_m = ecef_of(point);
+    for (const cigi::WeatherControl& weather : world.weather().carried()) {
+        if (!weather.weather_enable) continue;
+        if (const auto carrier = world.entity_pose(weather.entity_region_id))
+            carried.add(weather, glm::distance(ecef_of(carrier->position), point_ecef_m));
+    }
+    return carried;
 }
 
 cigi::WeatherConditionsResponse weather_response(std::uint8_t request_id, const AirState& air) noexcept {
@@ -181,7 +229,9 @@ void respond_to(const World& world, const cigi::EnvConditionsRequest& request,
             responses.add(cigi::TerrestrialSurfaceResponse{id, condition});
     }
     if ((request.request_type & kWeather) != 0) {
-        responses.add(weather_response(id, air_at(world.air(), world.weather(), regions, request.altitude)));
+        const CarriedAt carried = carried_to(world, {request.latitude, request.longitude, request.altitude});
+        responses.add(weather_response(
+            id, air_at(world.air(), world.weather(), regions, request.altitude, carried.all())));
     }
     if ((request.request_type & kAerosol) != 0) {
         const Aerosols aerosols = aerosols_at(world.weather(), regions, request.altitude);
@@ -198,7 +248,7 @@ void respond_to(const World& world, const cigi::EnvConditionsRequest& request,
 bool can_answer(const World& world, const cigi::PositionRequest& request) noexcept {
     switch (request.object_class) {
         case kEntity:
-            return request.object_id == 0 && world.ownship().exists && request.coordinate_system <= kParent;
+            return world.entity_pose(request.object_id) && request.coordinate_system <= kParent;
         case kView:
             return find_view(world.views(), request.object_id) != nullptr &&
                    request.coordinate_system <= kParent;
@@ -210,8 +260,8 @@ bool can_answer(const World& world, const cigi::PositionRequest& request) noexce
 }
 
 bool searches_regions(const World& world, const Request& request) noexcept {
-    if (std::holds_alternative<cigi::PositionRequest>(request)) return false;
-    return std::holds_alternative<cigi::EnvConditionsRequest>(request) || world.surfaces().has_regional_sea();
+    if (std::holds_alternative<cigi::HatHotRequest>(request)) return world.surfaces().has_regional_sea();
+    return std::holds_alternative<cigi::EnvConditionsRequest>(request);
 }
 
 void respond(const World& world, const Request& request, Responses& responses) noexcept {

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "protocol/cigi/packets.h"
+#include "protocol/cigi/packets_sight.h"
 #include "server/world/requests.h"
 
 namespace skyig::server::world {
@@ -13,6 +14,7 @@ namespace skyig::server::world {
 class World;
 
 using Response = std::variant<protocol::cigi::HatHotResponse, protocol::cigi::HatHotExtendedResponse,
+                              protocol::cigi::LosResponse, protocol::cigi::LosExtendedResponse,
                               protocol::cigi::PositionResponse, protocol::cigi::WeatherConditionsResponse,
                               protocol::cigi::AerosolResponse, protocol::cigi::MaritimeSurfaceResponse,
                               protocol::cigi::TerrestrialSurfaceResponse>;
@@ -40,8 +42,8 @@ class Responses {
     std::size_t count_ = 0;
 };
 
-/// Whether the request names something whose place is known: the ownship, a channel's view, a view group that
-/// a channel's view is in.
+/// Whether the request names something whose place is known: the ownship, another entity that the host has
+/// placed, a channel's view, a view group that a channel's view is in.
 [[nodiscard]] bool can_answer(const World& world, const protocol::cigi::PositionRequest& request) noexcept;
 
 /// Whether its answer takes a look at all regions: tens of microseconds, not one.
@@ -49,7 +51,8 @@ class Responses {
 
 /// Adds what the world says to the request. Terrain there is none: the height of the ground is that of the
 /// sea, which lies sea_at() above the ellipsoid. A HAT/HOT Request for a point outside the heights that are
-/// drawn, or on an entity other than the ownship, is answered as not valid.
+/// drawn, or on an entity that is not there, is answered as not valid, and so is every request for a line of
+/// sight: there is nothing here that could stand in it.
 void respond(const World& world, const Request& request, Responses& responses) noexcept;
 
 }  // namespace skyig::server::world

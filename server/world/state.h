@@ -22,6 +22,18 @@ struct Ownship : Pose {
     bool placed_by_host = false;
 };
 
+/// The ellipsoid on which the host's positions lie. Latitude and height over another than WGS84 are drawn as
+/// they are told, so that up is up and the ground is the ground; distances along it are those of WGS84.
+struct EarthModel {
+    bool custom = false;
+    double equatorial_radius_m = 6'378'137.0;
+    double flattening = 1.0 / 298.257223563;
+
+    /// Radii further from those of WGS84 than this part are refused: distances would be as wrong.
+    static constexpr double kFurthest = 0.005;
+    static constexpr double kFlattest = 0.005;
+};
+
 struct CelestialSwitches {
     bool sun = true;
     bool moon = true;
@@ -98,7 +110,10 @@ struct Counters {
     std::uint64_t standby_ignored = 0;    ///< packets other than IG Control in Standby
     std::uint64_t late_ignored = 0;       ///< packets of a message that newer ones have overtaken
     std::uint64_t frames_missed = 0;      ///< host messages that never came
-    std::uint64_t other_entity = 0;       ///< entities other than the ownship: not drawn
+    std::uint64_t entity_full = 0;        ///< no room for another entity
+    std::uint64_t entity_unknown = 0;     ///< rates of an entity that is not there
+    std::uint64_t rate_refused = 0;       ///< rates of a part, or such as no craft has
+    std::uint64_t earth_refused = 0;      ///< an ellipsoid too far from WGS84
     std::uint64_t ownship_attached = 0;   ///< the ownship attached to a parent: its offsets mean nothing here
     std::uint64_t position_refused = 0;   ///< ownship outside the heights that are drawn
     std::uint64_t clock_refused = 0;      ///< a date and time that does not exist
@@ -110,8 +125,8 @@ struct Counters {
     std::uint64_t orthographic = 0;       ///< parallel projection: not drawn
     std::uint64_t mirrored = 0;           ///< mirror mode: not drawn
     std::uint64_t weather_full = 0;       ///< no room for another region or layer
-    std::uint64_t surface_full = 0;       ///< no room for another sea or condition of the ground
-    std::uint64_t surface_entity = 0;     ///< sea or ground that hangs on an entity
+    std::uint64_t surface_full = 0;       ///< no room for another sea, wave or condition of the ground
+    std::uint64_t surface_entity = 0;     ///< sea, waves or ground that hang on an entity
     std::uint64_t component_unknown = 0;  ///< a component that is not there, or a state that it has not
     std::uint64_t request_unknown = 0;    ///< the place of something that is not there is asked
     std::uint64_t request_full = 0;       ///< more requests wait than can be kept
@@ -134,7 +149,10 @@ inline constexpr std::array kCounterNames{
     NamedCounter{"standby_ignored", &Counters::standby_ignored},
     NamedCounter{"late_ignored", &Counters::late_ignored},
     NamedCounter{"frames_missed", &Counters::frames_missed},
-    NamedCounter{"other_entity", &Counters::other_entity},
+    NamedCounter{"entity_full", &Counters::entity_full},
+    NamedCounter{"entity_unknown", &Counters::entity_unknown},
+    NamedCounter{"rate_refused", &Counters::rate_refused},
+    NamedCounter{"earth_refused", &Counters::earth_refused},
     NamedCounter{"ownship_attached", &Counters::ownship_attached},
     NamedCounter{"position_refused", &Counters::position_refused},
     NamedCounter{"clock_refused", &Counters::clock_refused},

@@ -9,6 +9,7 @@ namespace {
 
 using protocol::cigi::MaritimeSurfaceControl;
 using protocol::cigi::TerrestrialSurfaceControl;
+using protocol::cigi::WaveControl;
 using protocol::cigi::WeatherScope;
 
 /// By scope, then region; the region of what is global means nothing.
@@ -19,6 +20,10 @@ std::uint64_t area_key(WeatherScope scope, std::uint16_t region_id) noexcept {
 
 std::uint64_t sea_key(const MaritimeSurfaceControl& sea) noexcept {
     return area_key(sea.scope, sea.entity_region_id);
+}
+
+std::uint64_t wave_key(const WaveControl& wave) noexcept {
+    return area_key(wave.scope, wave.entity_region_id) | wave.wave_id;
 }
 
 std::uint64_t condition_key(const TerrestrialSurfaceControl& condition) noexcept {
@@ -41,11 +46,16 @@ std::span<const Item> between(const std::vector<Item>& items, std::uint64_t from
 
 SurfaceStore::SurfaceStore() {
     seas_.reserve(kMaxSeas);
+    waves_.reserve(kMaxWaves);
     conditions_.reserve(kMaxConditions);
 }
 
 bool SurfaceStore::set(const MaritimeSurfaceControl& sea) noexcept {
     return store_sorted(seas_, sea, kMaxSeas, sea_key).has_value();
+}
+
+bool SurfaceStore::set(const WaveControl& wave) noexcept {
+    return store_sorted(waves_, wave, kMaxWaves, wave_key).has_value();
 }
 
 bool SurfaceStore::set(const TerrestrialSurfaceControl& condition) noexcept {
@@ -57,11 +67,13 @@ void SurfaceStore::forget_region(std::uint16_t region_id) noexcept {
         return item.scope == WeatherScope::kRegional && item.entity_region_id == region_id;
     };
     std::erase_if(seas_, in_region);
+    std::erase_if(waves_, in_region);
     std::erase_if(conditions_, in_region);
 }
 
 void SurfaceStore::clear() noexcept {
     seas_.clear();
+    waves_.clear();
     conditions_.clear();
 }
 
@@ -69,6 +81,11 @@ const MaritimeSurfaceControl* SurfaceStore::sea(WeatherScope scope, std::uint16_
     const std::uint64_t key = area_key(scope, region_id);
     const auto found = between(seas_, key, key, sea_key);
     return found.empty() || !found.front().enable ? nullptr : found.data();
+}
+
+std::span<const WaveControl> SurfaceStore::waves(WeatherScope scope, std::uint16_t region_id) const noexcept {
+    const std::uint64_t key = area_key(scope, region_id);
+    return between(waves_, key, key | 0xFFU, wave_key);
 }
 
 std::span<const TerrestrialSurfaceControl> SurfaceStore::conditions(WeatherScope scope,

@@ -71,11 +71,19 @@ bool WeatherStore::set(const EnvRegionControl& region) noexcept {
         regions_sent_.erase(regions_sent_.begin() + (place - regions_.begin()));
         regions_.erase(place);
     }
-    // The layers of one region stand together: found, not searched for.
-    const std::span<const WeatherControl> gone = layers_of(WeatherScope::kRegional, region.region_id);
+    forget(WeatherScope::kRegional, region.region_id);
+    return true;
+}
+
+void WeatherStore::forget_entity(std::uint16_t entity_id) noexcept {
+    forget(WeatherScope::kEntity, entity_id);
+}
+
+void WeatherStore::forget(WeatherScope scope, std::uint16_t id) noexcept {
+    // They stand together: found, not searched for.
+    const std::span<const WeatherControl> gone = layers_of(scope, id);
     const auto first = layers_.begin() + (gone.data() - layers_.data());
     layers_.erase(first, first + static_cast<std::ptrdiff_t>(gone.size()));
-    return true;
 }
 
 void WeatherStore::clear() noexcept {
@@ -89,6 +97,12 @@ std::span<const WeatherControl> WeatherStore::layers_of(WeatherScope scope,
     const auto first = std::lower_bound(layers_.begin(), layers_.end(), probe(scope, region_id, 0), by_key);
     const auto last = std::upper_bound(first, layers_.end(), probe(scope, region_id, 255), by_key);
     return {layers_.data() + (first - layers_.begin()), static_cast<std::size_t>(last - first)};
+}
+
+std::span<const WeatherControl> WeatherStore::carried() const noexcept {
+    const auto first =
+        std::lower_bound(layers_.begin(), layers_.end(), probe(WeatherScope::kEntity, 0, 0), by_key);
+    return {layers_.data() + (first - layers_.begin()), static_cast<std::size_t>(layers_.end() - first)};
 }
 
 bool WeatherStore::enable_layer(WeatherScope scope, std::uint16_t region_id, std::uint8_t layer_id,

@@ -25,6 +25,8 @@ class WeatherStore {
     /// A destroyed region is forgotten with all its layers. \return false when there is no room for another
     /// region.
     bool set(const protocol::cigi::EnvRegionControl& region) noexcept;
+    /// The weather that hangs on it.
+    void forget_entity(std::uint16_t entity_id) noexcept;
     void clear() noexcept;
 
     /// Switches what is there and leaves all else as it was set. \return false when it is not there.
@@ -33,9 +35,11 @@ class WeatherStore {
     bool enable_region(std::uint16_t region_id, bool enable) noexcept;
 
     [[nodiscard]] std::span<const protocol::cigi::WeatherControl> layers() const noexcept { return layers_; }
-    /// Those of one region; of the global scope with any id.
+    /// Those of one region or entity; of the global scope with any id.
     [[nodiscard]] std::span<const protocol::cigi::WeatherControl> layers_of(
         protocol::cigi::WeatherScope scope, std::uint16_t region_id) const noexcept;
+    /// Those of all entities.
+    [[nodiscard]] std::span<const protocol::cigi::WeatherControl> carried() const noexcept;
     [[nodiscard]] std::span<const protocol::cigi::EnvRegionControl> regions() const noexcept {
         return regions_;
     }
@@ -44,6 +48,9 @@ class WeatherStore {
     [[nodiscard]] std::span<const std::uint64_t> regions_sent() const noexcept { return regions_sent_; }
 
   private:
+    /// All layers of one region or entity.
+    void forget(protocol::cigi::WeatherScope scope, std::uint16_t id) noexcept;
+
     std::vector<protocol::cigi::WeatherControl> layers_;
     std::vector<protocol::cigi::EnvRegionControl> regions_;
     std::vector<std::uint64_t> regions_sent_;

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include "server/world/conditions.h"
+
 namespace skyig::server::world {
 
 namespace cigi = protocol::cigi;
@@ -66,14 +68,6 @@ std::string_view order_name(cigi::ByteOrder order) {
     return order == cigi::ByteOrder::kBig ? "big-endian" : "little-endian";
 }
 
-template <class Packet>
-Pose pose_of(const Packet& packet) noexcept {
-    return {{packet.lat_x, packet.lon_y, packet.alt_z},
-            static_cast<double>(packet.yaw),
-            static_cast<double>(packet.pitch),
-            static_cast<double>(packet.roll)};
-}
-
 /// Takes over what a sky can have; hosts that care for visibility only leave the others at 0.
 bool take(double value, double min, double max, double& out) noexcept {
     if (value < min || value > max) return false;
@@ -95,7 +89,7 @@ World::World(const config::Config& config, const ephemeris::UtcClockTime& start_
       celestial_(configured_celestial(config.sky)),
       air_(configured_air(config.air)),
       views_(config.channels) {
-    track_.reset(ownship_);
+    own_.track.reset(ownship_);
 }
 
 Link World::link(std::size_t source) const noexcept {
@@ -134,6 +128,7 @@ void World::operator()(const cigi::IgControl& packet, const cigi::PacketInfo& in
     } else {
         verdict_ = in_operation() ? Verdict::kObeyed : Verdict::kStandby;
     }
+    if (verdict_ == Verdict::kObeyed) note_smoothing(source_, packet.extrapolation_enable);
 }
 
 void World::take_control(const cigi::IgControl& packet, const cigi::PacketInfo& info) {
@@ -225,71 +220,16 @@ void World::reset() {
     clock_ = UtcClock(default_utc_, config_.start.running);
     note_clock_step(before);
     ownship_ = configured_ownship(config_.start);
-    track_.reset(ownship_);
-    ownship_smoothed_ = false;
+    own_ = {};
+    own_.track.reset(ownship_);
+    entities_.clear();
+    earth_ = {};
     celestial_ = configured_celestial(config_.sky);
     air_ = configured_air(config_.air);
     views_.reset();
     weather_.clear();
     surfaces_.clear();
     outbox_.clear();
-}
-
-void World::operator()(const cigi::EntityControl& packet, const cigi::PacketInfo& info) {
-    if (!obeys(config::Aspect::kOwnship)) return;
-    if (packet.entity_id != 0) {
-        ++counters_.other_entity;
-        outbox_.messages.add(Matter::kPacketIgnored, "entity {}: only the ownship is drawn",
-                             packet.entity_id);
-        return;
-    }
-    ownship_.exists = packet.entity_state != cigi::EntityState::kDestroyed;
-    ownship_smoothed_ = packet.extrapolation_enable;
-    // In 4.0 the position is a packet of its own; a destroyed entity has none.
-    if (info.version == cigi::Version::k40 || !ownship_.exists) return;
-    place_ownship(packet.attach_state, pose_of(packet));
-}
-
-void World::operator()(const cigi::EntityPosition& packet) {
-    if (!obeys(config::Aspect::kOwnship)) return;
-    if (packet.entity_id != 0) {
-        ++counters_.other_entity;
-        outbox_.messages.add(Matter::kPacketIgnored, "entity {}: only the ownship is drawn",
-                             packet.entity_id);
-        return;
-    }
-    // The position may come before, or without, the packet that creates the ownship.
-    ownship_.exists = true;
-    place_ownship(packet.attach_state, pose_of(packet));
-}
-
-bool World::is_drawn(const ephemeris::Geodetic& position) {
-    if (ephemeris::is_valid(position)) return true;
-    ++counters_.position_refused;
-    outbox_.messages.add(Matter::kPacketIgnored, "ownship at {:g} m: heights from {:g} to {:g} m are drawn",
-                         position.height_m, ephemeris::kMinEyeHeight_m, ephemeris::kMaxEyeHeight_m);
-    log_.limited("position refused", kRepeatAfter_s, Severity::kWarning,
-                 "ownship at {} m ignored: heights from {} to {} m can be drawn", position.height_m,
-                 ephemeris::kMinEyeHeight_m, ephemeris::kMaxEyeHeight_m);
-    return false;
-}
-
-void World::place_ownship(bool attached, const Pose& pose) {
-    if (attached) {
-        ++counters_.ownship_attached;
-        outbox_.messages.add(Matter::kPacketIgnored, "the ownship is attached to an entity: not supported");
-        log_.limited("ownship attached", kRepeatAfter_s, Severity::kWarning,
-                     "the ownship is attached to another entity: not supported, its last place is held");
-        return;
-    }
-    if (!is_drawn(pose.position)) return;
-    if (track_source_ != source_) track_.reset(pose);
-    track_source_ = source_;
-    const std::optional<double> stamp_s = ownship_smoothed_ ? stamp_s_ : std::nullopt;
-    track_.report_position(pose.position, elapsed_s_, stamp_s);
-    track_.report_attitude(pose.yaw_deg, pose.pitch_deg, pose.roll_deg, elapsed_s_, stamp_s);
-    static_cast<Pose&>(ownship_) = pose;
-    ownship_.placed_by_host = true;
 }
 
 void World::operator()(const cigi::CelestialSphereControl& packet) {
@@ -383,7 +323,12 @@ void World::advance(double step_s) {
     if (!(step_s > 0.0) || !std::isfinite(step_s)) return;
     time_s_ += step_s;
     // What came before this step came at its start: the same instant is drawn.
-    static_cast<Pose&>(ownship_) = track_.at(elapsed_s_);
+    own_.track.advance(elapsed_s_);
+    static_cast<Pose&>(ownship_) = own_.track.at(elapsed_s_);
+    if (own_.clamped) ownship_.position.height_m = sea_below(weather_, surfaces_, ownship_.position).height_m;
+    for (Entity& entity : entities_.all())
+        entity.mover.track.advance(elapsed_s_);
+    drawn_s_ = elapsed_s_;
     elapsed_s_ += step_s;
     clock_.advance(step_s);
     if (!config_.start.utc) default_utc_.advance(step_s);
@@ -395,6 +340,8 @@ void World::advance(double step_s) {
 void World::supervise(double step_s) {
     authority_.advance(step_s, [this](const LinkChange& change) {
         if (change.to != LinkState::kLost) return;
+        // What it has told to move is held where it is.
+        note_smoothing(change.source, false);
         raise(Event::kSourceLost, static_cast<std::uint32_t>(change.source),
               static_cast<std::uint32_t>(authority_.losses(change.source)));
         const SourceRule& rule = authority_.rule(change.source);

@@ -12,6 +12,7 @@
 #include "server/ephemeris/time.h"
 #include "server/log.h"
 #include "server/world/authority.h"
+#include "server/world/entities.h"
 #include "server/world/outbox.h"
 #include "server/world/reports.h"
 #include "server/world/state.h"
@@ -43,6 +44,10 @@ class World {
     void operator()(const protocol::cigi::IgControl& packet, const protocol::cigi::PacketInfo& info);
     void operator()(const protocol::cigi::EntityControl& packet, const protocol::cigi::PacketInfo& info);
     void operator()(const protocol::cigi::EntityPosition& packet);
+    void operator()(const protocol::cigi::ConformalClamped& packet);
+    void operator()(const protocol::cigi::RateControl& packet);
+    void operator()(const protocol::cigi::AccelerationControl& packet);
+    void operator()(const protocol::cigi::EarthModelDefinition& packet);
     void operator()(const protocol::cigi::CelestialSphereControl& packet);
     void operator()(const protocol::cigi::AtmosphereControl& packet);
     void operator()(const protocol::cigi::WeatherControl& packet);
@@ -51,10 +56,13 @@ class World {
     void operator()(const protocol::cigi::ViewDefinition& packet);
     void operator()(const protocol::cigi::MaritimeSurfaceControl& packet);
     void operator()(const protocol::cigi::TerrestrialSurfaceControl& packet);
+    void operator()(const protocol::cigi::WaveControl& packet);
     void operator()(const protocol::cigi::ComponentControl& packet);
     void operator()(const protocol::cigi::ShortComponentControl& packet);
     /// Requests of the host in control are kept until outbox() is emptied.
     void operator()(const protocol::cigi::HatHotRequest& packet);
+    void operator()(const protocol::cigi::LosSegmentRequest& packet);
+    void operator()(const protocol::cigi::LosVectorRequest& packet);
     void operator()(const protocol::cigi::PositionRequest& packet);
     void operator()(const protocol::cigi::EnvConditionsRequest& packet);
 
@@ -88,6 +96,13 @@ class World {
     [[nodiscard]] Link control_link() const noexcept { return link(control_source()); }
     [[nodiscard]] const Authority& authority() const noexcept { return authority_; }
     [[nodiscard]] const Ownship& ownship() const noexcept { return ownship_; }
+    /// Where an entity stands that is there and active, the ownship (0) too; nothing for any other.
+    [[nodiscard]] std::optional<Pose> entity_pose(std::uint16_t entity_id) const noexcept;
+    /// Null for the ownship, and for what is not there.
+    [[nodiscard]] const Entity* entity(std::uint16_t entity_id) const noexcept {
+        return entities_.find(entity_id);
+    }
+    [[nodiscard]] const EarthModel& earth() const noexcept { return earth_; }
     [[nodiscard]] const UtcClock& clock() const noexcept { return clock_; }
     [[nodiscard]] const CelestialSwitches& celestial() const noexcept { return celestial_; }
     [[nodiscard]] const AirState& air() const noexcept { return air_; }
@@ -112,6 +127,8 @@ class World {
     struct Peer {
         protocol::transport::Endpoint endpoint;
         StampClock stamps;
+        /// Its IG Control lets motion go on between messages.
+        bool smoothing = false;
         bool second_host_said = false;
     };
 
@@ -121,6 +138,8 @@ class World {
     [[nodiscard]] bool may_ask() noexcept;
     template <class Packet>
     void take_request(const Packet& packet);
+    template <class Packet>
+    void take_surface(const Packet& packet) noexcept;
     /// \return false when there is no such component
     [[nodiscard]] bool switch_sky(const protocol::cigi::ComponentControl& packet) noexcept;
     [[nodiscard]] bool switch_weather(const protocol::cigi::ComponentControl& packet) noexcept;
@@ -135,8 +154,22 @@ class World {
     void reset();
     void supervise(double step_s);
     void place_ownship(bool attached, const Pose& pose);
+    void place_entity(Entity& entity, bool attached, std::uint16_t parent_id, const Pose& pose);
+    /// What follows the surface stands on the sea.
+    [[nodiscard]] Pose on_the_sea(const protocol::cigi::ConformalClamped& packet) const noexcept;
+    /// The entity of a packet that places or makes it; null, and counted, when there is no room for another.
+    [[nodiscard]] Entity* claim_entity(std::uint16_t entity_id);
+    /// The ownship's track belongs to the current source from here on.
+    void take_track(std::size_t source) noexcept;
+    /// Told rates carry on while both smoothing bits of the source's last messages say so.
+    void note_smoothing(std::size_t source, bool smoothing) noexcept;
+    void carry_ownship() noexcept;
+    void carry(Entity& entity) noexcept;
+    /// Calls `tell(track, stamp)` for what moves by the packet's rates; counts what is refused.
+    template <class Packet, class Tell>
+    void tell_rates(const Packet& packet, Tell&& tell);
     /// False, and counted, for a place that cannot be drawn.
-    [[nodiscard]] bool is_drawn(const ephemeris::Geodetic& position);
+    [[nodiscard]] bool is_drawn(const ephemeris::Geodetic& position, std::uint16_t entity_id = 0);
     [[nodiscard]] bool listens(std::size_t source, config::Aspect aspect) noexcept;
     void note_view(ViewResult result, std::uint16_t view_id);
     void note_clock_step(const ephemeris::UtcClockTime& before);
@@ -157,13 +190,13 @@ class World {
     ephemeris::UtcClockTime default_utc_;
     UtcClock clock_;
     Ownship ownship_;
-    OwnshipTrack track_;
+    Mover own_;
+    EntityStore entities_;
     /// Whose reports the track is made of.
     std::optional<std::size_t> track_source_;
     /// The sender's time of the current message, if its positions may be carried on.
     std::optional<double> stamp_s_;
-    /// The entity's own smoothing bit: in 4.0 it comes in another packet than the position.
-    bool ownship_smoothed_ = false;
+    EarthModel earth_;
     CelestialSwitches celestial_;
     AirState air_;
     Views views_;
@@ -174,6 +207,8 @@ class World {
     double time_s_ = 0.0;
     /// The sum of all steps alone.
     double elapsed_s_ = 0.0;
+    /// The instant that is drawn: what comes after it comes at elapsed_s_.
+    double drawn_s_ = 0.0;
 };
 
 }  // namespace skyig::server::world

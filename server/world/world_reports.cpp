@@ -45,22 +45,21 @@ bool World::listens(std::size_t source, config::Aspect aspect) noexcept {
 void World::report(std::size_t source, const OwnshipReport& report) {
     if (!listens(source, config::Aspect::kOwnship)) return;
     if (report.position && !is_drawn(*report.position)) return;
-    if (track_source_ != source) track_.reset(ownship_);
-    track_source_ = source;
+    take_track(source);
     ownship_.exists = true;
     if (report.position) {
         ownship_.position = *report.position;
-        track_.report_position(*report.position, elapsed_s_, report.sender_s);
+        own_.track.report_position(*report.position, elapsed_s_, report.sender_s);
         ownship_.placed_by_host = true;
     }
-    if (report.velocity_enu_m_s) track_.report_velocity(*report.velocity_enu_m_s, elapsed_s_);
+    if (report.velocity_enu_m_s) own_.track.report_velocity(*report.velocity_enu_m_s, elapsed_s_);
     if (!report.yaw_deg && !report.pitch_deg && !report.roll_deg) return;
     // What is told by one is carried on from the angles as they were told last, not as they are drawn.
-    const Pose told = track_.told();
+    const Pose told = own_.track.told();
     const double yaw_deg = report.yaw_deg.value_or(told.yaw_deg);
     const double pitch_deg = report.pitch_deg.value_or(told.pitch_deg);
     const double roll_deg = report.roll_deg.value_or(told.roll_deg);
-    track_.report_attitude(yaw_deg, pitch_deg, roll_deg, elapsed_s_, report.sender_s);
+    own_.track.report_attitude(yaw_deg, pitch_deg, roll_deg, elapsed_s_, report.sender_s);
     ownship_.yaw_deg = yaw_deg;
     ownship_.pitch_deg = pitch_deg;
     ownship_.roll_deg = roll_deg;

@@ -35,6 +35,12 @@ std::optional<config::Aspect> aspect_of(cigi::ComponentClass component_class) no
 const char* name_of(const cigi::HatHotRequest& /*request*/) noexcept {
     return "HAT/HOT";
 }
+const char* name_of(const cigi::LosSegmentRequest& /*request*/) noexcept {
+    return "line of sight segment";
+}
+const char* name_of(const cigi::LosVectorRequest& /*request*/) noexcept {
+    return "line of sight vector";
+}
 const char* name_of(const cigi::PositionRequest& /*request*/) noexcept {
     return "position";
 }
@@ -69,6 +75,14 @@ void World::operator()(const cigi::HatHotRequest& packet) {
     if (may_ask()) take_request(packet);
 }
 
+void World::operator()(const cigi::LosSegmentRequest& packet) {
+    if (may_ask()) take_request(packet);
+}
+
+void World::operator()(const cigi::LosVectorRequest& packet) {
+    if (may_ask()) take_request(packet);
+}
+
 void World::operator()(const cigi::EnvConditionsRequest& packet) {
     if (may_ask()) take_request(packet);
 }
@@ -84,7 +98,8 @@ void World::operator()(const cigi::PositionRequest& packet) {
                          packet.object_class, packet.object_id);
 }
 
-void World::operator()(const cigi::MaritimeSurfaceControl& packet) {
+template <class Packet>
+void World::take_surface(const Packet& packet) noexcept {
     if (!obeys(config::Aspect::kWeather)) return;
     if (packet.scope == cigi::WeatherScope::kEntity) {
         ++counters_.surface_entity;
@@ -93,13 +108,16 @@ void World::operator()(const cigi::MaritimeSurfaceControl& packet) {
     }
 }
 
+void World::operator()(const cigi::MaritimeSurfaceControl& packet) {
+    take_surface(packet);
+}
+
+void World::operator()(const cigi::WaveControl& packet) {
+    take_surface(packet);
+}
+
 void World::operator()(const cigi::TerrestrialSurfaceControl& packet) {
-    if (!obeys(config::Aspect::kWeather)) return;
-    if (packet.scope == cigi::WeatherScope::kEntity) {
-        ++counters_.surface_entity;
-    } else if (!surfaces_.set(packet)) {
-        ++counters_.surface_full;
-    }
+    take_surface(packet);
 }
 
 bool World::switch_sky(const cigi::ComponentControl& packet) noexcept {

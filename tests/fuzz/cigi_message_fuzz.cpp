@@ -7,6 +7,7 @@
 #include "protocol/cigi/catalogue.h"
 #include "protocol/cigi/layout_host.h"
 #include "protocol/cigi/layout_ig.h"
+#include "protocol/cigi/layout_sight.h"
 #include "protocol/cigi/message.h"
 
 namespace skyig::protocol::cigi {

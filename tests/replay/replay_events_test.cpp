@@ -7,22 +7,17 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
-#include <string_view>
 
-#include "protocol/recording/candump.h"
-#include "protocol/recording/pcapng_writer.h"
 #include "tests/e2e/process.h"
 #include "tests/e2e/rig.h"
 
 namespace skyig::tests {
 namespace {
 
-namespace recording = protocol::recording;
-
 struct Case {
     /// Of NAME.toml and NAME.events.
     std::string name;
-    /// Under the repository's root; a .log is a candump log.
+    /// Under the repository's root.
     std::string recording;
 };
 
@@ -30,39 +25,11 @@ void PrintTo(const Case& one, std::ostream* out) {
     *out << one.name;
 }
 
-/// Replays read captures: the log's frames as one.
-void log_to_capture(const std::string& log_path, const std::string& capture_path) {
-    std::ofstream file(capture_path, std::ios::binary);
-    recording::RecordingHead head;
-    head.can_names = {"can0"};
-    auto writer = recording::PcapngWriter::begin(
-        [&file](std::span<const std::byte> blocks) {
-            file.write(reinterpret_cast<const char*>(blocks.data()),
-                       static_cast<std::streamsize>(blocks.size()));
-            return file.good();
-        },
-        head);
-    ASSERT_TRUE(writer);
-    std::ifstream log(log_path);
-    for (std::string text; std::getline(log, text);) {
-        if (recording::is_blank_or_comment(text)) continue;
-        const auto line = recording::parse_candump(text);
-        ASSERT_TRUE(line) << text;
-        ASSERT_TRUE(writer->write_can(line->frame));
-    }
-}
-
 class ReplayEvents : public ::testing::TestWithParam<Case> {};
 
 TEST_P(ReplayEvents, AreAsReviewedAndThePicturesRepeat) {
     const std::string here = SKYIG_SOURCE_DIR "/tests/replay/" + GetParam().name;
-    const ScratchDirectory scratch;
-    std::string capture = SKYIG_SOURCE_DIR "/" + GetParam().recording;
-    if (capture.ends_with(".log")) {
-        const std::string converted = scratch.file("bus.pcapng");
-        log_to_capture(capture, converted);
-        capture = converted;
-    }
+    const std::string capture = SKYIG_SOURCE_DIR "/" + GetParam().recording;
     const Replayed first = replay(SKYIGD_PROGRAM, here + ".toml", capture);
     const Replayed second = replay(SKYIGD_PROGRAM, here + ".toml", capture);
     ASSERT_EQ(first.finished.status, 0) << first.finished.err;

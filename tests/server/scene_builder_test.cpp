@@ -356,5 +356,64 @@ TEST(SceneBuilder, CostsMicroseconds) {
     EXPECT_LT(spent.count() / kFrames, 200.0);
 }
 
+TEST(SceneBuilder, TheSeaBelowTheEyeIsTheHosts) {
+    namespace cigi = protocol::cigi;
+    HostBench bench(site({47.0, 8.0, 500.0}, {}));
+    SceneBuilder builder;
+    EXPECT_EQ(builder.build(bench.world, 1).sea.wave_count, 0U);
+    cigi::MaritimeSurfaceControl sea;
+    sea.enable = true;
+    sea.whitecap_enable = true;
+    sea.sea_surface_height = 1.5F;
+    sea.water_temperature = 9.0F;
+    sea.clarity = 40.0F;
+    cigi::WaveControl swell;
+    swell.wave_enable = true;
+    swell.height = 3.0F;
+    swell.wavelength = 120.0F;
+    swell.period = 9.0F;
+    swell.direction = 270.0F;
+    swell.phase_offset = 90.0F;
+    swell.leading = -45.0F;
+    swell.breaker_type = cigi::BreakerType::kSurging;
+    bench.send(kHostA, sea, swell);
+    const render::Sea open = builder.build(bench.world, 2).sea;
+    EXPECT_EQ(open.height_m, 1.5);
+    EXPECT_EQ(open.temperature_c, 9.0);
+    EXPECT_NEAR(open.clarity, 0.4, 1e-9);
+    EXPECT_EQ(open.whitecaps, 1.0);
+    ASSERT_EQ(open.all_waves().size(), 1U);
+    const render::Wave& wave = open.waves[0];
+    EXPECT_EQ(wave.height_m, 3.0);
+    EXPECT_EQ(wave.length_m, 120.0);
+    EXPECT_EQ(wave.period_s, 9.0);
+    EXPECT_NEAR(wave.direction_rad, 1.5 * kPi, 1e-12);
+    EXPECT_NEAR(wave.phase_rad, 0.5 * kPi, 1e-12);
+    EXPECT_NEAR(wave.leading_rad, -0.25 * kPi, 1e-12);
+    EXPECT_EQ(wave.breaker, render::Wave::Breaker::kSurging);
+    // A lake around the eye has ripples of its own.
+    cigi::EnvRegionControl lake;
+    lake.region_id = 2;
+    lake.region_state = cigi::RegionState::kActive;
+    lake.latitude = 47.0;
+    lake.longitude = 8.0;
+    lake.size_x = lake.size_y = 5000.0F;
+    cigi::WaveControl ripple = swell;
+    ripple.scope = cigi::WeatherScope::kRegional;
+    ripple.entity_region_id = 2;
+    ripple.height = 0.1F;
+    cigi::WaveControl on_ship = swell;
+    on_ship.scope = cigi::WeatherScope::kEntity;
+    bench.send(kHostA, lake, ripple, on_ship);
+    const render::Sea inland = builder.build(bench.world, 3).sea;
+    ASSERT_EQ(inland.wave_count, 1U);
+    EXPECT_NEAR(inland.waves[0].height_m, 0.1, 1e-6);
+    EXPECT_EQ(inland.height_m, 1.5) << "the lake has waves, but no surface of its own";
+    EXPECT_EQ(bench.world.counters().surface_entity, 1U);
+    bench.mode = cigi::IgMode::kStandby;
+    bench.send(kHostA);
+    EXPECT_EQ(builder.build(bench.world, 4).sea.wave_count, 0U);
+}
+
 }  // namespace
 }  // namespace skyig::server

@@ -8,6 +8,7 @@
 
 #include "protocol/cigi/layout_host.h"
 #include "protocol/cigi/layout_ig.h"
+#include "protocol/cigi/layout_sight.h"
 #include "protocol/cigi/message.h"
 #include "tests/protocol/cigi/golden.h"
 
@@ -124,7 +125,7 @@ TEST(Golden, NoPacketIsRefusedOrClamped) {
     }
 }
 
-TEST(Golden, EveryPacketKindOfTheLibraryOccursOrIsOfTheSurface) {
+TEST(Golden, EveryPacketKindOfTheLibraryOccursOrIsOfSurfaceMotionOrSight) {
     Counters counters;
     for (const GoldenDatagram& golden : golden_datagrams()) {
         std::array<std::byte, 1024> buffer{};
@@ -135,7 +136,10 @@ TEST(Golden, EveryPacketKindOfTheLibraryOccursOrIsOfTheSurface) {
         kPacketKind<ConformalClamped>,          kPacketKind<RateControl>,
         kPacketKind<MaritimeSurfaceControl>,    kPacketKind<WaveControl>,
         kPacketKind<TerrestrialSurfaceControl>, kPacketKind<EarthModelDefinition>,
-        kPacketKind<MaritimeSurfaceResponse>,   kPacketKind<TerrestrialSurfaceResponse>};
+        kPacketKind<MaritimeSurfaceResponse>,   kPacketKind<TerrestrialSurfaceResponse>,
+        kPacketKind<AccelerationControl>,       kPacketKind<LosSegmentRequest>,
+        kPacketKind<LosVectorRequest>,          kPacketKind<LosResponse>,
+        kPacketKind<LosExtendedResponse>};
     for (std::size_t kind = 0; kind < kPacketKinds; ++kind)
         EXPECT_EQ(counters.packets[kind] == 0, not_in_file.contains(kind)) << packet_name(kind);
 }

@@ -9,6 +9,7 @@
 
 #include "protocol/cigi/layout_host.h"
 #include "protocol/cigi/layout_ig.h"
+#include "protocol/cigi/layout_sight.h"
 #include "protocol/cigi/message.h"
 #include "tests/protocol/cigi/golden.h"
 

@@ -12,6 +12,7 @@
 
 #include "protocol/cigi/layout_host.h"
 #include "protocol/cigi/layout_ig.h"
+#include "protocol/cigi/layout_sight.h"
 #include "protocol/cigi/packet_list.h"
 
 namespace skyig::protocol::cigi {

@@ -7,6 +7,7 @@
 
 #include "protocol/cigi/layout_host.h"
 #include "protocol/cigi/layout_ig.h"
+#include "protocol/cigi/layout_sight.h"
 #include "protocol/cigi/validate.h"
 
 namespace skyig::protocol::cigi {

@@ -270,13 +270,59 @@ TEST(CaptureReader, WhatIsNoCaptureIsRefusedByItsFirstBytes) {
         EXPECT_FALSE(reader.has_value());
         return reader ? "" : reader.error();
     };
-    EXPECT_EQ(refusal(""), "FILE: byte 0: empty; a pcapng or pcap capture is read");
-    EXPECT_EQ(refusal("(17"),
-              "FILE: byte 0: 28 31 37 is the head of no capture; pcapng begins with 0A 0D 0D 0A, pcap with "
-              "A1 B2 C3 D4 or A1 B2 3C 4D or their reverse");
+    EXPECT_EQ(refusal(""), "FILE: byte 0: empty; a pcapng or pcap capture or a candump log is read");
+    EXPECT_EQ(
+        refusal("t17"),
+        "FILE: byte 0: 74 31 37 is the head of no capture; pcapng begins with 0A 0D 0D 0A, pcap with "
+        "A1 B2 C3 D4 or A1 B2 3C 4D or their reverse, a candump log with a time stamp in round brackets");
     EXPECT_EQ(refusal("\x1F\x8B\x08z"), "FILE: byte 0: compressed with gzip; unpack it first (gunzip)");
     EXPECT_THAT(refusal("\x0A\x0D\x0D\x0A"), HasSubstr("ends inside a block"));
     EXPECT_THAT(refusal("\x0A\x0D\x0D\x0A____ABCD"), HasSubstr("byte 8: byte-order mark 41424344; 1A2B3C4D"));
+}
+
+TEST(CaptureReader, CandumpLogIsACaptureOfCan) {
+    const std::string log =
+        "# made by hand\n"
+        "(1718994600.002500) can1 138#01020010\r\n"
+        "\n"
+        "(1718994600.0035)   can0 00010130#0102 T\n"
+        "(1718994600.004000) can1 123##5001122\n"
+        "(1718994600.005000) can1 20000004#0001000000000000";
+    auto reader = CaptureReader::over(std::as_bytes(std::span(log)), "FILE");
+    ASSERT_TRUE(reader) << reader.error();
+    std::vector<std::string> seen;
+    while (const CapturedPacket* packet = reader->next()) {
+        EXPECT_EQ(packet->kind, CapturedPacket::Kind::kCan);
+        EXPECT_EQ(packet->can.received_ns, packet->time_ns);
+        seen.push_back(reader->interface_of_last().name + ' ' + std::to_string(packet->can.bus) + ' ' +
+                       std::to_string(packet->can.id) + ' ' +
+                       std::to_string(packet->time_ns % 1'000'000'000));
+    }
+    EXPECT_THAT(seen, testing::ElementsAre("can1 0 312 2500000", "can0 1 65840 3500000", "can1 0 291 4000000",
+                                           "can1 0 4 5000000"));
+    EXPECT_EQ(reader->end(), CaptureReader::End::kComplete);
+    EXPECT_EQ(reader->counters().can, 4U);
+    EXPECT_EQ(reader->interfaces().size(), 2U);
+}
+
+Reading read_text(std::string_view text) {
+    return read(std::as_bytes(std::span(text)));
+}
+
+TEST(CaptureReader, CandumpLogEndsWhereALineIsNoFrame) {
+    const std::string good = "(1.000001) can0 123#00\n";
+    const Reading torn = read_text(good + "(1.000002) can0 12");
+    EXPECT_EQ(torn.end, CaptureReader::End::kTruncated);
+    EXPECT_EQ(torn.packets.size(), 1U);
+    EXPECT_THAT(torn.trouble, HasSubstr("FILE: byte 23: line 2, column 17: write the identifier"));
+    const Reading damaged = read_text(good + "(1.000002) can0 123#0\n" + good);
+    EXPECT_EQ(damaged.end, CaptureReader::End::kDamaged);
+    EXPECT_EQ(damaged.packets.size(), 1U);
+    EXPECT_THAT(damaged.trouble, HasSubstr("line 2, column 22: write each data byte as two hex digits"));
+    const Reading endless = read_text(good + "#" + std::string(5000, 'x') + '\n' + good);
+    EXPECT_EQ(endless.end, CaptureReader::End::kDamaged);
+    EXPECT_THAT(endless.trouble, HasSubstr("longer than 4096"));
+    EXPECT_EQ(read_text("# empty\n").end, CaptureReader::End::kComplete);
 }
 
 /// A section, an interface and a packet, each at a known place, one word of it changed.

@@ -30,6 +30,8 @@ struct Heard {
     cigi::StartOfFrame frame;
     std::vector<cigi::HatHotResponse> heights;
     std::vector<cigi::HatHotExtendedResponse> extended;
+    std::vector<cigi::LosResponse> sights;
+    std::vector<cigi::LosExtendedResponse> extended_sights;
     std::vector<cigi::PositionResponse> places;
     std::vector<cigi::WeatherConditionsResponse> weather;
     std::vector<cigi::AerosolResponse> aerosols;
@@ -44,6 +46,8 @@ struct Heard {
     }
     void operator()(const cigi::HatHotResponse& packet) { heights.push_back(packet); }
     void operator()(const cigi::HatHotExtendedResponse& packet) { extended.push_back(packet); }
+    void operator()(const cigi::LosResponse& packet) { sights.push_back(packet); }
+    void operator()(const cigi::LosExtendedResponse& packet) { extended_sights.push_back(packet); }
     void operator()(const cigi::PositionResponse& packet) { places.push_back(packet); }
     void operator()(const cigi::WeatherConditionsResponse& packet) { weather.push_back(packet); }
     void operator()(const cigi::AerosolResponse& packet) { aerosols.push_back(packet); }
@@ -55,8 +59,9 @@ struct Heard {
     }
 
     [[nodiscard]] std::size_t answers() const {
-        return heights.size() + extended.size() + places.size() + weather.size() + aerosols.size() +
-               seas.size() + grounds.size() + events.size() + messages.size();
+        return heights.size() + extended.size() + sights.size() + extended_sights.size() + places.size() +
+               weather.size() + aerosols.size() + seas.size() + grounds.size() + events.size() +
+               messages.size();
     }
 };
 
@@ -141,6 +146,41 @@ TEST_P(AnswersTest, ComeAgainEveryPeriodAndEveryFrame) {
         EXPECT_EQ(heard.places.size(), 1U);
     }
     EXPECT_EQ(heights, "x...x...x");
+}
+
+TEST_P(AnswersTest, LinesOfSightAreAnsweredEveryPeriodAsNotValid) {
+    cigi::LosSegmentRequest segment;
+    segment.request_id = 5;
+    segment.update_period = 3;
+    cigi::LosVectorRequest vector;
+    vector.request_id = 6;
+    vector.request_type = true;
+    bench_.send(kHostA, segment, vector);
+    std::string frames;
+    std::size_t extended = 0;
+    for (int frame = 0; frame < 6; ++frame) {
+        const Heard heard = next();
+        frames += heard.sights.empty() ? '.' : 'x';
+        extended += heard.extended_sights.size();
+        for (const cigi::LosResponse& response : heard.sights)
+            EXPECT_FALSE(response.valid);
+    }
+    EXPECT_EQ(frames, "x..x..");
+    EXPECT_EQ(extended, 1U);
+}
+
+TEST_P(AnswersTest, StartOfFrameTellsWhoseEarthItIs) {
+    cigi::EarthModelDefinition sphere;
+    sphere.custom_enable = true;
+    sphere.equatorial_radius = 6'371'000.0;
+    sphere.flattening = 0.0;
+    bench_.send(kHostA, sphere);
+    EXPECT_TRUE(next().frame.earth_model);
+    sphere.equatorial_radius = 3'390'000.0;
+    bench_.send(kHostA, sphere);
+    EXPECT_TRUE(next().frame.earth_model) << "what is refused changes nothing";
+    bench_.send(kHostA, cigi::EarthModelDefinition{});
+    EXPECT_FALSE(next().frame.earth_model);
 }
 
 TEST_P(AnswersTest, NothingButStartOfFrameInStandby) {

@@ -191,6 +191,29 @@ TEST(Replay, ForeignCaptureIsPutOnTheGridOfFrames) {
     EXPECT_EQ(frames[5].first.utc_ns, kStartNs + 100 * kMs);
 }
 
+TEST(Replay, CandumpLogIsPutOnTheGridByItsStamps) {
+    const Scratch scratch;
+    const config::Config config = rig();
+    const std::string path = scratch.write("bus.log",
+                                           "# two buses\n"
+                                           "(1782000000.000000) can1 005#00\n"
+                                           "(1782000000.019999) can0 006#00\n"
+                                           "(1782000000.020001) can1 007#00\n"
+                                           "(1782000000.060000) can0 008#00\n");
+    Replay replay(path, config);
+    EXPECT_FALSE(replay.has_marks());
+    const auto frames = frames_of(replay);
+    ASSERT_EQ(frames.size(), 4U);
+    EXPECT_THAT(frames[0].second, ElementsAre("3 can 5:1"));
+    EXPECT_THAT(frames[1].second, ElementsAre("2 can 6:1"));
+    EXPECT_THAT(frames[2].second, ElementsAre("3 can 7:1"));
+    EXPECT_THAT(frames[3].second, ElementsAre("2 can 8:1"));
+    EXPECT_EQ(frames[3].first.utc_ns, kStartNs + 60 * kMs);
+    EXPECT_THAT(refusal(scratch.write("empty.log", "# nothing\n")),
+                HasSubstr("holds no UDP datagram and no CAN frame"));
+    EXPECT_THAT(refusal(scratch.write("bad.log", "(12) can0 1\n")), HasSubstr("line 1, column 4"));
+}
+
 TEST(Replay, BusIsFoundByItsNameBeforeItsPlace) {
     const Scratch scratch;
     const config::Config config = rig();

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <vector>
 
 namespace skyig::server::world {
 namespace {
@@ -12,6 +13,7 @@ using protocol::cigi::EnvRegionControl;
 using protocol::cigi::MaritimeSurfaceControl;
 using protocol::cigi::RegionState;
 using protocol::cigi::TerrestrialSurfaceControl;
+using protocol::cigi::WaveControl;
 using protocol::cigi::WeatherControl;
 using protocol::cigi::WeatherScope;
 
@@ -234,6 +236,110 @@ TerrestrialSurfaceControl ground(WeatherScope scope, int region_id, int conditio
     control.condition_id = static_cast<std::uint16_t>(condition_id);
     control.enable = true;
     return control;
+}
+
+TEST_F(ConditionsTest, WeatherOnAnEntityFadesWithTheDistanceAndLiesOverAll) {
+    WeatherControl storm = layer(WeatherScope::kEntity, 12, 200);
+    storm.base_elevation = 9e5F;  // means nothing
+    storm.thickness = 0.0F;
+    storm.transition_band = 5000.0F;
+    storm.humidity = 100;
+    const auto with = [&](double distance_m) {
+        CarriedAt carried;
+        carried.add(storm, distance_m);
+        return air_at(base_, weather_, regions(), 0.0, carried.all());
+    };
+    EXPECT_NEAR(with(0.0).visibility_m, 500.0, 1e-9);
+    EXPECT_NEAR(with(0.0).temperature_c, 5.0, 1e-12);
+    // Half way: half of each extinction, of each temperature.
+    EXPECT_NEAR(1.0 / with(2500.0).visibility_m, 0.5 / 500.0 + 0.5 / 80'000.0, 1e-12);
+    EXPECT_NEAR(with(2500.0).humidity_pct, 75.0, 1e-9);
+    EXPECT_EQ(with(5000.0).visibility_m, base_.visibility_m);
+    EXPECT_EQ(with(5000.0).temperature_c, base_.temperature_c);
+    // Over a region's fog as over the base state.
+    WeatherControl fog = layer(WeatherScope::kRegional, 3, 0);
+    fog.base_elevation = 0.0F;
+    fog.visibility = 50.0F;
+    ASSERT_TRUE(weather_.set(region(3)) && weather_.set(fog));
+    EXPECT_NEAR(with(0.0).visibility_m, 500.0, 1e-9);
+    EXPECT_NEAR(with(1e9).visibility_m, 50.0, 1e-9);
+    // Two entities count together.
+    WeatherControl other = storm;
+    other.air_temperature = 15.0F;
+    CarriedAt both;
+    both.add(storm, 0.0);
+    both.add(other, 0.0);
+    const AirState air = air_at(base_, weather_, regions(), 0.0, both.all());
+    EXPECT_NEAR(air.visibility_m, 250.0, 1e-9);
+    EXPECT_NEAR(air.temperature_c, 10.0, 1e-9);
+    for (std::size_t i = 0; i < 2 * CarriedAt::kMost; ++i)
+        both.add(other, 0.0);
+    EXPECT_EQ(both.all().size(), CarriedAt::kMost);
+}
+
+WaveControl wave(WeatherScope scope, int region_id, int wave_id, float height_m) {
+    WaveControl control;
+    control.scope = scope;
+    control.entity_region_id = static_cast<std::uint16_t>(region_id);
+    control.wave_id = static_cast<std::uint8_t>(wave_id);
+    control.wave_enable = true;
+    control.height = height_m;
+    return control;
+}
+
+TEST_F(ConditionsTest, WavesAreTheRegionsOverTheGlobal) {
+    const auto heights = [this](double longitude_deg) {
+        std::vector<double> all;
+        for (const WaveAt& at : WavesAt(surfaces_, regions(0.0, longitude_deg)))
+            all.push_back(static_cast<double>(at.wave->height) * at.weight);
+        return all;
+    };
+    EXPECT_TRUE(heights(0.0).empty());
+    ASSERT_TRUE(surfaces_.set(wave(WeatherScope::kGlobal, 0, 1, 4.0F)));
+    ASSERT_TRUE(surfaces_.set(wave(WeatherScope::kGlobal, 9, 2, 1.0F))) << "a global one has no region";
+    EXPECT_EQ(heights(0.0), (std::vector<double>{4.0, 1.0}));
+    EXPECT_FALSE(surfaces_.is_regional());
+    ASSERT_TRUE(surfaces_.set(wave(WeatherScope::kRegional, 3, 1, 0.5F)));
+    EXPECT_TRUE(surfaces_.is_regional());
+    EXPECT_EQ(heights(0.0).size(), 2U) << "a region that nobody has defined";
+    EnvRegionControl lake = region(3);
+    lake.transition_perimeter = 20'000.0F;
+    ASSERT_TRUE(weather_.set(lake));
+    EXPECT_EQ(heights(0.0), (std::vector<double>{0.5}));
+    // In the perimeter by part.
+    const double shore_deg = 60'000.0 / 111'319.49;
+    const std::vector<double> shore = heights(shore_deg);
+    ASSERT_EQ(shore.size(), 3U);
+    EXPECT_NEAR(shore[0], 2.0, 1e-4);
+    EXPECT_NEAR(shore[1], 0.5, 1e-4);
+    EXPECT_NEAR(shore[2], 0.25, 1e-4);
+    // The first region covers the global ones whatever its flag; the next joins it with its own.
+    EnvRegionControl bay = region(4);
+    bay.merge_maritime = true;
+    ASSERT_TRUE(weather_.set(bay) && surfaces_.set(wave(WeatherScope::kRegional, 4, 7, 3.0F)));
+    EXPECT_EQ(heights(0.0), (std::vector<double>{0.5, 3.0}));
+    bay.merge_maritime = false;
+    ASSERT_TRUE(weather_.set(bay));
+    EXPECT_EQ(heights(0.0), (std::vector<double>{3.0}));
+    WaveControl off = wave(WeatherScope::kRegional, 4, 7, 3.0F);
+    off.wave_enable = false;
+    ASSERT_TRUE(surfaces_.set(off));
+    EXPECT_EQ(heights(0.0), (std::vector<double>{0.5}));
+    surfaces_.forget_region(3);
+    EXPECT_EQ(heights(0.0).size(), 2U);
+}
+
+TEST_F(ConditionsTest, OfManyWavesTheHighestAreKept) {
+    for (int id = 0; id < 40; ++id)
+        ASSERT_TRUE(surfaces_.set(wave(WeatherScope::kGlobal, 0, id, static_cast<float>((id * 7) % 40))));
+    const WavesAt waves(surfaces_, {});
+    ASSERT_EQ(waves.size(), WavesAt::kMost);
+    for (const WaveAt& at : waves)
+        EXPECT_GE(at.wave->height, 24.0F);
+    std::size_t stored = 40;
+    for (int id = 0; id < 2000; ++id)
+        stored += surfaces_.set(wave(WeatherScope::kRegional, id, 0, 1.0F)) ? 1U : 0U;
+    EXPECT_EQ(stored, SurfaceStore::kMaxWaves);
 }
 
 TEST_F(ConditionsTest, GroundIsDryUnlessAConditionIsSet) {

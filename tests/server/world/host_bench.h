@@ -63,6 +63,18 @@ class HostBench {
         return protocol::cigi::decode_host_message(writer.bytes(), world, counters);
     }
 
+    /// Sends a Component Control from host A.
+    void control(protocol::cigi::ComponentClass component_class, int id, int instance, int state,
+                 std::uint32_t data_1 = 0) {
+        protocol::cigi::ComponentControl packet;
+        packet.component_class = component_class;
+        packet.component_id = static_cast<std::uint16_t>(id);
+        packet.instance_id = static_cast<std::uint16_t>(instance);
+        packet.component_state = static_cast<std::uint8_t>(state);
+        packet.data_1 = data_1;
+        send(kHostA, packet);
+    }
+
     void wait(double seconds) {
         for (int i = 0; i < 100; ++i) {
             world.advance(seconds / 100.0);

@@ -174,6 +174,80 @@ TEST(OwnshipTrack, VelocityThatIsNoLongerToldIsNoLongerUsed) {
     EXPECT_EQ(track.at(2.04).position, (ephemeris::Geodetic{0.0, 0.0, 0.0}));
 }
 
+/// Northward over the ground.
+Rates north(double speed_m_s) {
+    return {{speed_m_s, 0.0, 0.0}, {}};
+}
+
+TEST(OwnshipTrack, ToldRatesComeBeforeWhatReportsSay) {
+    OwnshipTrack track;
+    track.carry_told(true, 0.0);
+    // Reports that say east, and a host that says north.
+    track.report_position({0.0, 0.0, 0.0}, 0.0, 0.0);
+    track.report_position({0.0, 0.001, 0.0}, 0.1, 0.1);
+    ASSERT_TRUE(track.tell_velocity(RateAxes::kGround, north(100.0), 0.1, 0.1));
+    const Pose pose = track.at(0.6);
+    EXPECT_EQ(pose.position.longitude_deg, 0.001);
+    EXPECT_NEAR(distance_m({0.0, 0.001, 0.0}, pose.position), 50.0, 1e-6);
+    // A report moves it and leaves the rates.
+    track.report_position({10.0, 0.0, 0.0}, 1.1, 1.1);
+    EXPECT_NEAR(distance_m({10.0, 0.0, 0.0}, track.at(2.1).position), 100.0, 1e-6);
+    // They hold for as long as nothing else is told: half a minute, in frames.
+    for (int i = 0; i <= 600; ++i)
+        track.advance(1.1 + 0.05 * i);
+    EXPECT_NEAR(distance_m({10.0, 0.0, 0.0}, track.at(31.1).position), 3000.0, 0.01);
+}
+
+TEST(OwnshipTrack, ToldRatesHoldFromTheStampNotFromTheArrival) {
+    OwnshipTrack track;
+    track.carry_told(true, 10.0);
+    track.report_position({0.0, 0.0, 0.0}, 10.0, 0.0);
+    track.report_position({0.0, 0.0, 0.0}, 10.1, 0.1);
+    // 40 ms late on the way.
+    ASSERT_TRUE(track.tell_velocity(RateAxes::kGround, north(100.0), 10.24, 0.2));
+    EXPECT_NEAR(distance_m({0.0, 0.0, 0.0}, track.at(10.24).position), 4.0, 0.01);
+    // Without stamp, from the arrival.
+    ASSERT_TRUE(track.tell_velocity(RateAxes::kGround, north(0.0), 10.30, std::nullopt));
+    EXPECT_NEAR(distance_m({0.0, 0.0, 0.0}, track.at(99.0).position), 10.0, 0.01);
+}
+
+TEST(OwnshipTrack, ZeroRatesLeaveItToTheReportsAgain) {
+    OwnshipTrack track;
+    track.carry_told(true, 0.0);
+    ASSERT_TRUE(track.tell_velocity(RateAxes::kGround, north(100.0), 0.0, 0.0));
+    ASSERT_TRUE(track.tell_velocity(RateAxes::kGround, north(0.0), 1.0, 1.0));
+    const Pose stood = track.at(1.0);
+    EXPECT_EQ(track.at(50.0), stood);
+    for (int i = 0; i < 3; ++i) {
+        // A host that flies by places and says so in every message.
+        ASSERT_TRUE(track.tell_velocity(RateAxes::kGround, north(0.0), 2.0 + 0.1 * i, 2.0 + 0.1 * i));
+        track.report_position({1.0, 0.0001 * i, 0.0}, 2.0 + 0.1 * i, 2.0 + 0.1 * i);
+    }
+    EXPECT_NEAR(track.at(2.3).position.longitude_deg, 0.0003, 1e-9);
+}
+
+TEST(OwnshipTrack, ToldRatesThatAreNotCarriedStand) {
+    OwnshipTrack track;
+    track.report_position({0.0, 0.0, 0.0}, 0.0, std::nullopt);
+    ASSERT_TRUE(track.tell_velocity(RateAxes::kGround, north(100.0), 0.0, std::nullopt));
+    EXPECT_EQ(track.at(5.0).position, (ephemeris::Geodetic{0.0, 0.0, 0.0}));
+    track.carry_told(true, 5.0);
+    EXPECT_NEAR(distance_m({0.0, 0.0, 0.0}, track.at(6.0).position), 100.0, 1e-6);
+    track.carry_told(false, 7.0);
+    EXPECT_NEAR(distance_m({0.0, 0.0, 0.0}, track.at(99.0).position), 200.0, 1e-6);
+    EXPECT_FALSE(track.tell_velocity(RateAxes::kGround, north(1e6), 99.0, std::nullopt));
+}
+
+TEST(OwnshipTrack, AccelerationChangesTheVelocityThatAReportLeaves) {
+    OwnshipTrack track;
+    track.carry_told(true, 0.0);
+    ASSERT_TRUE(track.tell_acceleration(RateAxes::kGround, north(10.0), 0.0, 0.0));
+    EXPECT_NEAR(distance_m({0.0, 0.0, 0.0}, track.at(2.0).position), 20.0, 1e-6);
+    track.report_position({0.0, 50.0, 0.0}, 2.0, 2.0);
+    // 20 m/s by now.
+    EXPECT_NEAR(distance_m({0.0, 50.0, 0.0}, track.at(3.0).position), 25.0, 1e-6);
+}
+
 TEST(StampClock, DifferencesSurviveTheWrapAndABackwardStep) {
     StampClock clock;
     EXPECT_EQ(clock.seconds(0xFFFFFF00U), 0.0);

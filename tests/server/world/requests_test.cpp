@@ -51,6 +51,25 @@ TEST(Requests, AreAnsweredOnceInTheirOrder) {
     EXPECT_TRUE(requests.empty());
 }
 
+TEST(Requests, BothKindsOfSightShareTheirIds) {
+    Requests requests;
+    protocol::cigi::LosSegmentRequest segment;
+    segment.request_id = 4;
+    segment.update_period = 2;
+    protocol::cigi::LosVectorRequest vector;
+    vector.request_id = 4;
+    ASSERT_TRUE(requests.ask(segment) && requests.ask(hat(4, 1)));
+    EXPECT_EQ(requests.standing(), 2U) << "heights have ids of their own";
+    ASSERT_TRUE(requests.ask(vector));
+    EXPECT_EQ(requests.standing(), 1U) << "a vector that is asked once ends the segment";
+    requests.next_frame();
+    EXPECT_EQ(answer_all(requests), 2U);
+    vector.update_period = 1;
+    ASSERT_TRUE(requests.ask(vector));
+    requests.next_frame();
+    EXPECT_EQ(answer_all(requests), 2U);
+}
+
 TEST(Requests, ComeAgainEveryPeriod) {
     Requests requests;
     ASSERT_TRUE(requests.ask(hat(5, 3)));

@@ -37,16 +37,6 @@ class WorldRequestsTest : public ::testing::Test {
         EXPECT_NE(response, nullptr);
         return response == nullptr ? P{} : *response;
     }
-    /// Sends a Component Control.
-    void control(ComponentClass component_class, int id, int instance, int state, std::uint32_t data_1 = 0) {
-        cigi::ComponentControl packet;
-        packet.component_class = component_class;
-        packet.component_id = static_cast<std::uint16_t>(id);
-        packet.instance_id = static_cast<std::uint16_t>(instance);
-        packet.component_state = static_cast<std::uint8_t>(state);
-        packet.data_1 = data_1;
-        bench_.send(kHostA, packet);
-    }
     void place(double latitude_deg, double longitude_deg, double height_m, float yaw_deg = 0.0F) {
         cigi::EntityControl ownship;
         ownship.entity_state = cigi::EntityState::kActive;
@@ -212,6 +202,136 @@ TEST_F(WorldRequestsTest, UnknownThingsAreCountedNotAnswered) {
     EXPECT_EQ(bench_.world.outbox().requests.waiting(), 0U);
 }
 
+TEST_F(WorldRequestsTest, LinesOfSightAreAnsweredAsNotValid) {
+    bench_.frame = 0x31;
+    cigi::LosSegmentRequest segment;
+    segment.request_id = 0xABCD;
+    segment.destination_lat_x = 1.0;
+    const auto basic = only<cigi::LosResponse>(segment);
+    EXPECT_EQ(basic.request_id, 0xABCD);
+    EXPECT_FALSE(basic.valid);
+    EXPECT_FALSE(basic.visible);
+    EXPECT_EQ(basic.host_frame_lsn, 2);
+    EXPECT_EQ(basic.response_count, 1);
+    EXPECT_EQ(basic.range, 0.0);
+    cigi::LosVectorRequest vector;
+    vector.request_id = 0xABCD;
+    vector.request_type = true;
+    vector.azimuth = 30.0F;
+    const auto extended = only<cigi::LosExtendedResponse>(vector);
+    EXPECT_EQ(extended.request_id, 0xABCD);
+    EXPECT_FALSE(extended.valid);
+    EXPECT_FALSE(extended.range_valid);
+    EXPECT_EQ(extended.response_count, 1);
+    segment.source_lat_x = 91.0;
+    EXPECT_TRUE(ask(segment).empty()) << "refused by the decoder";
+    EXPECT_EQ(bench_.counters[cigi::Count::kOutOfRange], 1U);
+}
+
+TEST_F(WorldRequestsTest, WeatherThatHangsOnAnEntityIsFoundWhereItIs) {
+    cigi::EntityControl storm;
+    storm.entity_id = 30;
+    storm.entity_state = cigi::EntityState::kActive;
+    storm.lat_x = 10.0;
+    storm.lon_y = 20.0;
+    storm.alt_z = 3000.0;
+    cigi::WeatherControl rain;
+    rain.scope = cigi::WeatherScope::kEntity;
+    rain.entity_region_id = 30;
+    rain.weather_enable = true;
+    rain.visibility = 800.0F;
+    rain.humidity = 99;
+    rain.air_temperature = 3.0F;
+    rain.pressure = 700.0F;
+    rain.wind_horizontal = 20.0F;
+    rain.wind_direction = 270.0F;
+    rain.transition_band = 4000.0F;
+    cigi::EnvConditionsRequest request;
+    request.request_type = 4;
+    request.latitude = 10.0;
+    request.longitude = 20.0;
+    request.altitude = 3000.0;
+    bench_.send(kHostA, rain);
+    EXPECT_EQ(only<cigi::WeatherConditionsResponse>(request).humidity, 50) << "its entity is not there yet";
+    bench_.send(kHostA, storm);
+    const auto inside = only<cigi::WeatherConditionsResponse>(request);
+    EXPECT_NEAR(inside.visibility, 800.0F, 0.01F);
+    EXPECT_EQ(inside.humidity, 99);
+    EXPECT_NEAR(inside.wind_horizontal, 20.0F, 1e-3F);
+    EXPECT_NEAR(inside.wind_direction, 270.0F, 1e-3F);
+    EXPECT_NEAR(inside.pressure, 700.0F, 1e-2F);
+    request.altitude = 5000.0;
+    EXPECT_NEAR(only<cigi::WeatherConditionsResponse>(request).air_temperature, 9.0F, 0.01F)
+        << "half way out";
+    request.altitude = 7001.0;
+    EXPECT_EQ(only<cigi::WeatherConditionsResponse>(request).humidity, 50);
+    // It goes with its entity.
+    storm.lon_y = 21.0;
+    bench_.send(kHostA, storm);
+    request.altitude = 3000.0;
+    EXPECT_EQ(only<cigi::WeatherConditionsResponse>(request).humidity, 50);
+    request.longitude = 21.0;
+    EXPECT_EQ(only<cigi::WeatherConditionsResponse>(request).humidity, 99);
+    // No layer, so no aerosol; and gone with its entity, also when that comes again.
+    request.request_type = 8;
+    EXPECT_TRUE(ask(request).empty());
+    storm.entity_state = cigi::EntityState::kDestroyed;
+    bench_.send(kHostA, storm);
+    storm.entity_state = cigi::EntityState::kActive;
+    bench_.send(kHostA, storm);
+    request.request_type = 4;
+    EXPECT_EQ(only<cigi::WeatherConditionsResponse>(request).humidity, 50);
+    // On the ownship itself.
+    place(50.0, 0.0, 1000.0);
+    rain.entity_region_id = 0;
+    bench_.send(kHostA, rain);
+    request.latitude = 50.0;
+    request.longitude = 0.0;
+    request.altitude = 1000.0;
+    EXPECT_EQ(only<cigi::WeatherConditionsResponse>(request).humidity, 99);
+}
+
+TEST_F(WorldRequestsTest, EntitiesSayWhereTheyAre) {
+    cigi::EntityControl ship;
+    ship.entity_id = 7;
+    ship.entity_state = cigi::EntityState::kActive;
+    ship.lat_x = 50.0;
+    ship.lon_y = -4.0;
+    ship.alt_z = 20.0;
+    ship.yaw = 300.0F;
+    cigi::EntityControl mast = ship;
+    mast.entity_id = 8;
+    mast.attach_state = true;
+    mast.parent_id = 7;
+    mast.lat_x = -10.0;
+    mast.lon_y = 0.0;
+    mast.alt_z = -30.0;
+    mast.yaw = 5.0F;
+    bench_.send(kHostA, ship, mast);
+    cigi::PositionRequest request;
+    request.object_id = 7;
+    request.coordinate_system = 1;
+    const auto hull = only<cigi::PositionResponse>(request);
+    EXPECT_EQ(hull.coordinate_system, 0) << "attached to nothing";
+    EXPECT_EQ(hull.lon_y, -4.0);
+    EXPECT_EQ(hull.yaw, 300.0F);
+    request.object_id = 8;
+    const auto offset = only<cigi::PositionResponse>(request);
+    EXPECT_EQ(offset.coordinate_system, 1);
+    EXPECT_EQ(offset.lat_x, -10.0);
+    EXPECT_EQ(offset.alt_z, -30.0);
+    EXPECT_EQ(offset.yaw, 5.0F);
+    request.coordinate_system = 0;
+    const auto top = only<cigi::PositionResponse>(request);
+    EXPECT_NEAR(top.alt_z, 50.0, 1e-4);
+    EXPECT_NEAR(top.yaw, 305.0F, 1e-3F);
+    cigi::HatHotRequest height = hat_hot(cigi::HatHotType::kHat, 5.0);
+    height.coordinate_system = true;
+    height.entity_id = 7;
+    height.lat_x = height.lon_y = 0.0;
+    EXPECT_NEAR(only<cigi::HatHotResponse>(height).height, 15.0, 1e-6);
+}
+
 TEST_F(WorldRequestsTest, ConditionsOfAllKindsInOneRequest) {
     cigi::AtmosphereControl air;
     air.model_enable = true;
@@ -279,62 +399,9 @@ TEST_F(WorldRequestsTest, ADestroyedRegionTakesItsSeaWithIt) {
     EXPECT_EQ(bench_.world.counters().surface_entity, 1U);
 }
 
-TEST_F(WorldRequestsTest, ComponentsSwitchSkyAndWeather) {
-    control(ComponentClass::kCelestialSphere, 0, 0, 0);
-    control(ComponentClass::kCelestialSphere, 2, 0, 0);
-    EXPECT_FALSE(bench_.world.celestial().sun);
-    EXPECT_TRUE(bench_.world.celestial().moon);
-    EXPECT_FALSE(bench_.world.celestial().stars);
-    control(ComponentClass::kCelestialSphere, 3, 0, 0);
-    EXPECT_FALSE(bench_.world.clock().running());
-    control(ComponentClass::kAtmosphere, 0, 0, 0);
-    EXPECT_FALSE(bench_.world.air().model_enabled);
-
-    cigi::WeatherControl layer;
-    layer.layer_id = 2;
-    layer.weather_enable = true;
-    cigi::WeatherControl regional = layer;
-    regional.scope = cigi::WeatherScope::kRegional;
-    regional.entity_region_id = 6;
-    cigi::EnvRegionControl region;
-    region.region_id = 6;
-    region.region_state = cigi::RegionState::kActive;
-    region.size_x = region.size_y = 1000.0F;
-    bench_.send(kHostA, layer, regional, region);
-    control(ComponentClass::kGlobalLayeredWeather, 0, 2, 0);
-    control(ComponentClass::kRegionalLayeredWeather, 1, 6, 0, 2);
-    EXPECT_FALSE(bench_.world.weather().layers()[0].weather_enable);
-    EXPECT_FALSE(bench_.world.weather().layers()[1].weather_enable);
-    control(ComponentClass::kRegionalLayeredWeather, 0, 6, 0);
-    EXPECT_EQ(bench_.world.weather().regions()[0].region_state, cigi::RegionState::kInactive);
-    cigi::ShortComponentControl again;
-    again.component_class = ComponentClass::kRegionalLayeredWeather;
-    again.component_id = 1;
-    again.instance_id = 6;
-    again.component_state = 1;
-    again.data_1 = 2;
-    bench_.send(kHostA, again);
-    EXPECT_TRUE(bench_.world.weather().layers()[1].weather_enable);
-    EXPECT_EQ(bench_.world.counters().component_unknown, 0U);
-}
-
-TEST_F(WorldRequestsTest, ComponentsThatAreNotThereAreCounted) {
-    control(ComponentClass::kCelestialSphere, 4, 0, 1);
-    control(ComponentClass::kCelestialSphere, 0, 0, 2);
-    control(ComponentClass::kGlobalLayeredWeather, 0, 256, 1);
-    control(ComponentClass::kRegionalLayeredWeather, 0, 9, 1);
-    control(ComponentClass::kRegionalLayeredWeather, 1, 9, 1, 4'000'000'000U);
-    control(ComponentClass::kSystem, 0, 0, 1);
-    control(ComponentClass::kEvent, 0, 99, 1);
-    control(ComponentClass::kEntity, 0, 0, 1);
-    EXPECT_EQ(bench_.world.counters().component_unknown, 8U);
-    EXPECT_TRUE(bench_.world.celestial().sun);
-    EXPECT_EQ(bench_.lines_with("not in the component table"), 1U);
-}
-
 TEST_F(WorldRequestsTest, EventsTellOfClockAndLinks) {
     for (const int id : {1, 2, 3})
-        control(ComponentClass::kEvent, 0, id, 1);
+        bench_.control(ComponentClass::kEvent, 0, id, 1);
     cigi::CelestialSphereControl sky;
     sky.hour = 18;
     sky.minute = 30;
