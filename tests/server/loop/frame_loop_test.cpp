@@ -42,6 +42,10 @@ class FakePainter final : public Painter {
     }
     std::uint64_t gl_errors() const override { return 0; }
     double adaptation_cd_m2() const override { return 100.0; }
+    std::size_t passes(std::span<status::PassState> rows) const override {
+        rows[0] = {"dome", true, "always"};
+        return 1;
+    }
     std::string description() const override { return "fake"; }
 
     render::Scene last_scene;
