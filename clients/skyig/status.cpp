@@ -17,7 +17,7 @@ namespace skyig::clients {
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::chrono::milliseconds kAnswerWithin{3000};
 /// Cursor home, and everything below it cleared.

@@ -10,7 +10,7 @@ namespace skyig::clients::status {
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// Lines under headings in one column.
 class Page {
@@ -83,8 +83,8 @@ void add_frames(Page& page, const Json& now, Before before) {
     const Json& recent = now.at("recent");
     page.line("frames", "{:.1f} a second of {:g}; {} since the start", recent.at("rate_hz").get<double>(),
               now.at("rate_hz").get<double>(), grown(now.at("frames"), member(before, "frames")));
-    page.line("late", "{} of the last {}; {} since the start ({})",
-              recent.at("late").get<std::uint64_t>(), recent.at("frames").get<std::uint64_t>(),
+    page.line("late", "{} of the last {}; {} since the start ({})", recent.at("late").get<std::uint64_t>(),
+              recent.at("frames").get<std::uint64_t>(),
               grown(now.at("late_frames"), member(before, "late_frames")),
               counts_text(now.at("late_by_cause"), member(before, "late_by_cause")));
     page.line("times in ms", "{:>10} {:>10} {:>10}", "median", "p95", "largest");
@@ -124,10 +124,11 @@ std::string names_text(const Json& names) {
 }
 
 void add_source(Page& page, const Json& source, Before before) {
+    const std::string& heard_at = text_of(source.at("heard_at"));
     const std::string& peer = text_of(source.at("peer"));
     const Json& silent = source.at("silent_s");
-    page.line("source", "{} ({} on {}): {}{}{}, {} arrivals, lost {} times; holds {}",
-              text_of(source.at("name")), text_of(source.at("kind")), text_of(source.at("heard_at")),
+    page.line("source", "{} ({}{}): {}{}{}, {} arrivals, lost {} times; holds {}", text_of(source.at("name")),
+              text_of(source.at("kind")), heard_at.empty() ? "" : " on " + heard_at,
               text_of(source.at("link")), peer.empty() ? "" : " from " + peer,
               silent.is_null() ? "" : fmt::format(", heard {:.1f} s ago", silent.get<double>()),
               grown(source.at("arrivals"), member(before, "arrivals")),
