@@ -89,8 +89,12 @@ std::string describe(const Config& config) {
             bus ? fmt::format(", {} on {}", source.name, source.interface)
                 : fmt::format(", {} on udp {}:{}", source.name, source.listen.address, source.listen.port);
     }
-    return fmt::format("ok: {} channel{}, {}, {}", count, count == 1 ? "" : "s", heard,
-                       output_name(config.output.kind));
+    const std::string status =
+        config.status.enabled
+            ? fmt::format("status on http://{}:{}", config.status.listen.address, config.status.listen.port)
+            : std::string("no status port");
+    return fmt::format("ok: {} channel{}, {}, {}, {}", count, count == 1 ? "" : "s", heard,
+                       output_name(config.output.kind), status);
 }
 
 }  // namespace skyig::config

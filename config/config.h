@@ -114,6 +114,16 @@ struct Record {
 
 inline constexpr std::string_view kRecordTimeMark = "{time}";
 
+/// The read-only port that tells how the daemon goes.
+struct Status {
+    bool enabled = true;
+    /// TCP.
+    UdpAddress listen{"127.0.0.1", 8006};
+    /// The file names the port: the daemon does not run without it. Where it is only the default, a second
+    /// daemon on the machine goes without, and so does a replay.
+    bool listen_given = false;
+};
+
 struct Config {
     Daemon daemon;
     Host host;
@@ -127,6 +137,7 @@ struct Config {
     Eye eye;
     Output output;
     Record record;
+    Status status;
     /// 1..kMaxChannels
     std::vector<Channel> channels;
 };
@@ -162,7 +173,8 @@ struct LoadResult {
 /// "site.toml:12:9: display.gamma: ..."
 [[nodiscard]] std::string to_text(const ConfigError& error);
 
-/// One line for `--check`: "ok: 3 channels, CIGI 3.3+4.0 on udp 127.0.0.1:8004, headless".
+/// One line for `--check`: "ok: 3 channels, CIGI 3.3+4.0 on udp 127.0.0.1:8004, headless, status on
+/// http://...".
 [[nodiscard]] std::string describe(const Config& config);
 
 }  // namespace skyig::config

@@ -176,6 +176,8 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_eye(open_table(root, errors, "eye"), config.eye);
     read_output(open_table(root, errors, "output"), config.output);
     read_record(open_table(root, errors, "record"), config.record);
+    TableReader status = open_table(root, errors, "status");
+    read_status(status, config.status);
     read_channels(root, errors, config.channels);
     root.finish();
     return config;

@@ -13,6 +13,9 @@ namespace skyig::config {
 void read_host(TableReader& table, Host& host);
 void read_sources(TableReader& root, ErrorList& errors, const Host& host, std::vector<Source>& sources);
 
+/// Reads [status].
+void read_status(TableReader& table, Status& status);
+
 /// Reads the [[channel]] tables and checks them against one another.
 void read_channels(TableReader& root, ErrorList& errors, std::vector<Channel>& channels);
 

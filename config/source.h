@@ -36,6 +36,8 @@ struct Rights {
 };
 
 enum class SourceKind : std::uint8_t { kCigi, kCanAerospace, kFgNetFdm };
+/// As the settings write them.
+inline constexpr std::array<std::string_view, 3> kSourceKindNames{"cigi", "canaerospace", "fgnetfdm"};
 
 inline constexpr std::size_t kMaxSources = 16;
 

@@ -1,4 +1,5 @@
-// [host] and the [[source]] tables: who is heard, where, and about what.
+// [host] and the [[source]] tables: who is heard, where, and about what; [status]: where who watches is
+// heard.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +14,6 @@ namespace {
 constexpr std::array<std::string_view, 2> kVersionNames{"3.3", "4.0"};
 constexpr std::array<CigiVersion, 2> kVersions{CigiVersion{3, 3}, CigiVersion{4, 0}};
 constexpr std::array<std::string_view, 2> kDatabaseNames{"accept", "none"};
-constexpr std::array<std::string_view, 3> kKindNames{"cigi", "canaerospace", "fgnetfdm"};
 constexpr int kLargestIdentifier = 2031;
 /// Linux: IFNAMSIZ less the terminating NUL.
 constexpr std::size_t kLongestInterface = 15;
@@ -52,13 +52,16 @@ void read_allowed(TableReader& table, std::vector<UdpAddress>& allow) {
     if (!read.empty()) allow = std::move(read);
 }
 
-void read_listen(TableReader& table, UdpAddress& listen) {
+/// Whether it is there and right.
+bool read_listen(TableReader& table, UdpAddress& listen, std::string_view example = "127.0.0.1:8004") {
     std::string text;
     const Value* value = table.text("listen", text);
-    if (value == nullptr || parse_udp_address(text, listen)) return;
+    if (value == nullptr) return false;
+    if (parse_udp_address(text, listen)) return true;
     table.error(
         *value, "listen",
-        fmt::format("is \"{}\"; it must be an IPv4 address and a port, such as \"127.0.0.1:8004\"", text));
+        fmt::format("is \"{}\"; it must be an IPv4 address and a port, such as \"{}\"", text, example));
+    return false;
 }
 
 void read_rights(TableReader& table, Rights& rights) {
@@ -149,7 +152,7 @@ void check_owned(TableReader& table, const Source& source) {
         if (!never.test(i)) continue;
         table.error(*value, "owns",
                     fmt::format("holds \"{}\", of which {} says nothing", kAspectNames[i],
-                                kKindNames[static_cast<std::size_t>(source.kind)]));
+                                kSourceKindNames[static_cast<std::size_t>(source.kind)]));
     }
 }
 
@@ -161,7 +164,7 @@ void read_source(TableReader& table, ErrorList& errors, Source& source) {
     }
     table.require("name", "a short text such as \"instructor\"");
     std::size_t kind = 0;
-    table.choice("kind", kind, kKindNames);
+    table.choice("kind", kind, kSourceKindNames);
     table.require("kind", R"(one of "cigi", "canaerospace", "fgnetfdm")");
     source.kind = static_cast<SourceKind>(kind);
     source.rights.owns = owned_by_default(source.kind);
@@ -199,7 +202,7 @@ void compare(ErrorList& errors, const Host& host, const std::vector<Source>& sou
             if (udp && source.kind != other.kind && source.listen == other.listen) {
                 errors.add(places[i], fmt::format("source[{}].listen", i + 1),
                            fmt::format("is that of \"{}\", which speaks {}; one port hears one protocol",
-                                       other.name, kKindNames[static_cast<std::size_t>(other.kind)]));
+                                       other.name, kSourceKindNames[static_cast<std::size_t>(other.kind)]));
             }
         }
         before.push_back({source.name, source.kind, source.listen});
@@ -218,6 +221,12 @@ void read_host(TableReader& table, Host& host) {
     if (table.choice("database", index, kDatabaseNames) != nullptr)
         host.database = static_cast<DatabasePolicy>(index);
     read_rights(table, host.rights);
+    table.finish();
+}
+
+void read_status(TableReader& table, Status& status) {
+    table.boolean("enabled", status.enabled);
+    status.listen_given = read_listen(table, status.listen, "127.0.0.1:8006");
     table.finish();
 }
 

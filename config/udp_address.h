@@ -1,4 +1,4 @@
-// An IPv4 address and a UDP port as plain values.
+// An IPv4 address and a port as plain values.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace skyig::config {
 
-/// Dotted-quad IPv4 address and UDP port.
+/// Dotted-quad IPv4 address and port: of UDP, but for the status port.
 struct UdpAddress {
     std::string address = "127.0.0.1";
     std::uint16_t port = 0;

@@ -25,6 +25,7 @@
 #include "server/pace.h"
 #include "server/recorder.h"
 #include "server/replay.h"
+#include "server/status/status_port.h"
 #include "server/stop_signal.h"
 
 namespace skyig::server {
@@ -201,6 +202,46 @@ void tell_ends(Log& log, const Outside& outside, const std::string& renderer) {
     }
 }
 
+/// What the frame loop knows of itself, and where its sources are heard.
+status::Facts status_facts(const FrameLoop& loop, const Outside& outside, const Clock& clock) {
+    status::Facts facts = loop.facts();
+    if (const LiveWire* live = outside.live()) {
+        for (std::size_t i = 0; i < facts.sources.size(); ++i) {
+            if (const auto local = live->local(i)) facts.sources[i].heard_at = to_string(*local);
+            if (const auto* bus = live->bus(i)) facts.sources[i].heard_at = bus->interface();
+        }
+    }
+    constexpr std::int64_t kSecondNs = 1'000'000'000;
+    facts.started_ns = clock.monotonic_ns();
+    facts.started_utc = ephemeris::to_iso(ephemeris::UtcClockTime::from_unix(clock.utc_ns() / kSecondNs));
+    return facts;
+}
+
+/// Null where none is wanted, or none can be had that was only the default.
+std::unique_ptr<status::StatusPort> open_status(const config::Status& settings, status::Facts facts,
+                                                status::SnapshotExchange& exchange, const Outside& outside,
+                                                const Clock& clock, Log& log) {
+    // A replay is one of many, and its log is compared.
+    if (!settings.enabled || (outside.replay() != nullptr && !settings.listen_given)) return nullptr;
+    const auto edges = [&outside] {
+        status::Edges told;
+        if (const LiveWire* live = outside.live()) told.buses = live->bus_rows();
+        if (const Recorder* recorder = outside.recorder()) {
+            const Recorder::Counts counts = recorder->counts();
+            told.recorder = {recorder->path(), counts.written, counts.lost, counts.bytes, counts.file_failed};
+        }
+        return told;
+    };
+    auto port = status::StatusPort::open(settings, std::move(facts), exchange, clock, edges);
+    if (!port) {
+        if (settings.listen_given) throw std::runtime_error(fmt::format("status: {}", port.error()));
+        log.warning("no status port: {}", port.error());
+        return nullptr;
+    }
+    log.info("status on http://{}/status", (*port)->local());
+    return std::move(port).value();
+}
+
 void write_report(const std::string& path, const RunReport& report) {
     std::ofstream file(path);
     file << to_json(report);
@@ -238,11 +279,14 @@ void run(const DaemonOptions& options, const config::Config& config,
         log.info("records into {}", path);
     }
 
-    FrameLoop loop(
-        config,
-        {clock, log, outside.pace(), outside.wire(), world, painter, images.get(), hashes.get(), table.get()},
-        options.frames, options.out_every, std::move(orientation));
+    const auto exchange = std::make_unique<status::SnapshotExchange>();
+    FrameLoop loop(config,
+                   {clock, log, outside.pace(), outside.wire(), world, painter, images.get(), hashes.get(),
+                    table.get(), exchange.get()},
+                   options.frames, options.out_every, std::move(orientation));
     log.info("ephemeris {}", loop.report().ephemeris_text());
+    const auto status_port =
+        open_status(config.status, status_facts(loop, outside, clock), *exchange, outside, clock, log);
     loop.warm_up();
     running = &loop;
     const std::int64_t cpu_before_ns = process_cpu_ns();

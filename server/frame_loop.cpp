@@ -9,8 +9,6 @@
 
 namespace skyig::server {
 
-namespace cigi = protocol::cigi;
-
 namespace {
 
 /// Frames that come late are told when they are more than this part of the frames in that time.
@@ -18,24 +16,22 @@ constexpr double kToldLatePart = 0.01;
 constexpr double kWatchFor_s = 10.0;
 constexpr double kRepeatAfter_s = 60.0;
 
-std::string protocol_text(const cigi::Session& session) {
-    return fmt::format("{} {}-endian", session.version() == cigi::Version::k40 ? "4.0" : "3.3",
-                       session.host_order() == cigi::ByteOrder::kBig ? "big" : "little");
-}
-
-std::string day_text(double mjd) {
-    constexpr double kUnixEpochMjd = 40587.0;
-    constexpr double kSecondsPerDay = 86400.0;
-    const auto since_1970_s = static_cast<std::int64_t>((mjd - kUnixEpochMjd) * kSecondsPerDay);
-    return ephemeris::to_iso(ephemeris::UtcClockTime::from_unix(since_1970_s)).substr(0, 10);
-}
-
-std::string days_text(const ephemeris::EarthOrientation& orientation) {
-    if (orientation.empty()) return {};
-    return fmt::format("{}..{}", day_text(orientation.first_mjd()), day_text(orientation.last_mjd()));
-}
-
 }  // namespace
+
+/// Durations from one call to the next.
+class FrameLoop::Stopwatch {
+  public:
+    Stopwatch(const Clock& clock, std::int64_t start_ns) noexcept : clock_(clock), before_ns_(start_ns) {}
+
+    std::int64_t lap_ns() noexcept {
+        const std::int64_t now_ns = clock_.monotonic_ns();
+        return now_ns - std::exchange(before_ns_, now_ns);
+    }
+
+  private:
+    const Clock& clock_;
+    std::int64_t before_ns_;
+};
 
 FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, std::uint64_t frame_limit,
                      std::uint64_t image_every, ephemeris::EarthOrientation orientation)
@@ -72,19 +68,27 @@ bool FrameLoop::run_frame() {
     answer_host(slot, utc_ns);
     const std::uint64_t arrivals_before = inbox_.arrivals();
     parts_.wire.drain(inbox_);
-    times_.input().add(parts_.clock.monotonic_ns() - start_ns);
     parts_.world.advance(static_cast<double>(slot.slots) * parts_.pace.period_s());
-    draw(scenes_.build(parts_.world, frame_number_));
+    const render::Scene scene = scenes_.build(parts_.world, frame_number_);
+    status::FrameParts times;
+    times.start_ns = start_ns;
+    Stopwatch stopwatch(parts_.clock, start_ns);
+    times.input_ns = stopwatch.lap_ns();
+    times_.input().add(times.input_ns);
+    draw(scene, stopwatch, times);
     if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images();
     if (parts_.hashes != nullptr) hash_images();
 
-    last_end_ns_ = parts_.clock.monotonic_ns();
-    times_.frame().add(last_end_ns_ - start_ns);
+    times.output_ns = stopwatch.lap_ns();
+    last_end_ns_ = start_ns + times.duration_ns();
+    times_.frame().add(times.duration_ns());
+    record_.add(times, slot.late, parts_.pace.period_s());
     if (parts_.table != nullptr) {
         parts_.table->add({frame_number_, utc_ns, slot.slots, slot.late, inbox_.arrivals() - arrivals_before},
                           times_);
     }
     watch(slot);
+    if (parts_.status != nullptr) publish_status(scene);
     return true;
 }
 
@@ -102,18 +106,15 @@ void FrameLoop::answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns) {
                        "Start of Frame to {} not sent: the system did not take it", *destination);
 }
 
-void FrameLoop::draw(const render::Scene& scene) {
-    std::int64_t before_ns = parts_.clock.monotonic_ns();
-    const auto lap = [this, &before_ns](TimeHistogram& times) {
-        const std::int64_t now_ns = parts_.clock.monotonic_ns();
-        times.add(now_ns - before_ns);
-        before_ns = now_ns;
-    };
+void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::FrameParts& times) {
     parts_.painter.prepare(scene);
-    lap(times_.shared());
+    times.shared_ns = stopwatch.lap_ns();
+    times_.shared().add(times.shared_ns);
     for (std::size_t channel = 0; channel < config_.channels.size(); ++channel) {
         parts_.painter.draw(channel);
-        lap(times_.channel(channel));
+        const std::int64_t took_ns = stopwatch.lap_ns();
+        times_.channel(channel).add(took_ns);
+        times.channels_ns += took_ns;
     }
 }
 
@@ -199,66 +200,6 @@ void FrameLoop::tell_dropped_datagrams() {
                            "{} datagrams dropped: they came faster than they can be taken", too_many);
     }
     told_wire_ = now;
-}
-
-RunReport FrameLoop::report() const {
-    RunReport report;
-    report.version = SKYIG_VERSION;
-    report.renderer = parts_.painter.description();
-    report.gl_errors = parts_.painter.gl_errors();
-    report.rate_hz = config_.daemon.rate_hz;
-    report.elapsed_s = static_cast<double>(last_end_ns_ - first_start_ns_) * 1e-9;
-    report.frames = frame_number_;
-    report.late_frames = late_frames_;
-    report.slots_left_out = slots_left_out_;
-    report.times.push_back(time_row("input", times_.input()));
-    report.times.push_back(time_row("shared", times_.shared()));
-    for (std::size_t i = 0; i < config_.channels.size(); ++i)
-        report.times.push_back(time_row(config_.channels[i].name, times_.channel(i)));
-    report.times.push_back(time_row("frame", times_.frame()));
-    report.start_of_frame_sent = start_of_frame_sent_;
-    report.start_of_frame_failed = start_of_frame_failed_;
-    report_ephemeris(report);
-    report_host(report);
-    if (parts_.images != nullptr) {
-        const ImageWriter::Counts images = parts_.images->counts();
-        report.images_written = images.written;
-        report.images_failed = images.failed;
-        report.image_frames_skipped = images.skipped;
-    }
-    return report;
-}
-
-void FrameLoop::report_ephemeris(RunReport& report) const {
-    report.ephemeris = ephemeris::name_of(ephemeris_model(config_));
-    report.earth_orientation = days_text(scenes_.orientation());
-    report.date_clamped = scenes_.date_clamped();
-    report.leap_seconds_assumed = scenes_.leap_seconds_assumed();
-}
-
-void FrameLoop::report_host(RunReport& report) const {
-    const world::Link link = parts_.world.control_link();
-    if (link.state != world::LinkState::kWaiting) {
-        report.host = fmt::to_string(link.host);
-        report.host_protocol = protocol_text(parts_.world.session());
-    }
-    report.host_losses = link.losses;
-    report.datagrams = inbox_.datagrams();
-    report.host_frames_behind_median = inbox_.frames_behind().quantile(0.5);
-    report.host_frames_behind_largest = inbox_.frames_behind().largest();
-
-    const cigi::Counters& counters = inbox_.counters();
-    for (std::size_t kind = 0; kind < cigi::kHostPacketKinds; ++kind)
-        report.packets.push_back({std::string(cigi::packet_name(kind)), counters.packets[kind]});
-    for (std::size_t i = 0; i < cigi::kCounts; ++i)
-        report.rejects.push_back(
-            {std::string(cigi::count_name(static_cast<cigi::Count>(i))), counters.counts[i]});
-    for (const world::NamedCounter& counter : world::kCounterNames)
-        report.rejects.push_back({std::string(counter.name), parts_.world.counters().*counter.value});
-    const protocol::transport::UdpCounters received = parts_.wire.counters();
-    report.rejects.push_back({"not_allowed", received.not_allowed});
-    report.rejects.push_back({"ring_full", received.ring_full});
-    report.rejects.push_back({"queue_full", received.queue_full});
 }
 
 }  // namespace skyig::server

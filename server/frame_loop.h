@@ -18,6 +18,7 @@
 #include "server/painter.h"
 #include "server/report.h"
 #include "server/scene_builder.h"
+#include "server/status/snapshot_exchange.h"
 #include "server/wire.h"
 #include "server/world/world.h"
 
@@ -37,6 +38,8 @@ struct FrameLoopParts {
     FrameHashes* hashes = nullptr;
     /// Null: frames are timed for the report alone.
     FrameTable* table = nullptr;
+    /// Null: nobody is told how frames go.
+    status::SnapshotExchange* status = nullptr;
 };
 
 /// Neither a host nor a disk can hold it up. A frame allocates nothing in steady state.
@@ -63,10 +66,14 @@ class FrameLoop {
 
     /// Everything counted so far; the images' counts are final once the writer has finished.
     [[nodiscard]] RunReport report() const;
+    /// What of the status stays in a run; start and addresses are the caller's to add.
+    [[nodiscard]] status::Facts facts() const;
 
   private:
+    class Stopwatch;
+
     void answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns);
-    void draw(const render::Scene& scene);
+    void draw(const render::Scene& scene, Stopwatch& stopwatch, status::FrameParts& times);
     void hand_out_images();
     void hash_images();
     void watch(const FramePacer::Slot& slot);
@@ -74,8 +81,11 @@ class FrameLoop {
     void tell_dropped_datagrams();
     void tell_what_is_drawn_otherwise();
     void tell_date();
-    void report_ephemeris(RunReport& report) const;
-    void report_host(RunReport& report) const;
+    /// A few times a second: a snapshot for who watches.
+    void publish_status(const render::Scene& scene);
+    void take_stock(status::Snapshot& snapshot) const;
+    void take_stock_of_sources(status::Snapshot& snapshot) const;
+    void take_stock_of_world(status::Snapshot& snapshot) const;
 
     const config::Config& config_;
     FrameLoopParts parts_;
@@ -86,6 +96,7 @@ class FrameLoop {
     Inbox inbox_;
     SceneBuilder scenes_;
     FrameTimes times_;
+    status::FrameRecord record_;
 
     std::uint64_t frame_number_ = 0;
     std::uint64_t late_frames_ = 0;
@@ -94,6 +105,7 @@ class FrameLoop {
     std::uint64_t start_of_frame_failed_ = 0;
     std::int64_t first_start_ns_ = 0;
     std::int64_t last_end_ns_ = 0;
+    std::int64_t published_ns_ = 0;
     /// Since the last look at what goes wrong.
     struct Watched {
         std::uint64_t frames = 0;

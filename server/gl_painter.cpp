@@ -1,5 +1,6 @@
 #include "server/gl_painter.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace skyig::server {
@@ -10,6 +11,7 @@ GlPainter::GlPainter(std::vector<render::Channel> channels, const render::Displa
 
 void GlPainter::prepare(const render::Scene& scene) {
     const render::FrameReport& report = renderer_.prepare(scene);
+    passes_ = report.plan.passes;
     gl_errors_ = report.gl_errors;
     adaptation_cd_m2_ = report.adaptation_cd_m2;
 }
@@ -20,6 +22,13 @@ void GlPainter::draw(std::size_t channel) {
 
 void GlPainter::read_back(std::size_t channel, std::span<std::byte> rgba) {
     renderer_.read_back(channel, rgba);
+}
+
+std::size_t GlPainter::passes(std::span<status::PassState> rows) const {
+    const std::size_t count = std::min(rows.size(), passes_.size());
+    for (std::size_t i = 0; i < count; ++i)
+        rows[i] = {render::pass_name(passes_[i].pass), passes_[i].needed, passes_[i].reason};
+    return count;
 }
 
 }  // namespace skyig::server

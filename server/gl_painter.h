@@ -1,6 +1,7 @@
 // The Painter of the programs: the renderer on an OpenGL context without a window.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "render/gl/headless_context.h"
@@ -21,11 +22,13 @@ class GlPainter final : public Painter {
     void read_back(std::size_t channel, std::span<std::byte> rgba) override;
     [[nodiscard]] std::uint64_t gl_errors() const override { return gl_errors_; }
     [[nodiscard]] double adaptation_cd_m2() const override { return adaptation_cd_m2_; }
+    [[nodiscard]] std::size_t passes(std::span<status::PassState> rows) const override;
     [[nodiscard]] std::string description() const override { return context_.description(); }
 
   private:
     render::gl::HeadlessContext context_;
     render::Renderer renderer_;
+    std::array<render::PlannedPass, render::kPassCount> passes_{};
     std::uint64_t gl_errors_ = 0;
     double adaptation_cd_m2_ = 0.0;
 };

@@ -70,7 +70,11 @@ class Inbox::Handler {
 };
 
 Inbox::Inbox(const config::Config& config, world::World& world, Log& log)
-    : world_(world), log_(log), buses_(config.sources.size() + 1), flight_models_(config.sources.size() + 1) {
+    : world_(world),
+      log_(log),
+      arrivals_(config.sources.size() + 1),
+      buses_(config.sources.size() + 1),
+      flight_models_(config.sources.size() + 1) {
     for (std::size_t i = 0; i < config.sources.size(); ++i) {
         const config::Source& source = config.sources[i];
         if (source.kind == config::SourceKind::kCanAerospace)
@@ -82,6 +86,7 @@ Inbox::Inbox(const config::Config& config, world::World& world, Log& log)
 
 void Inbox::take(std::size_t source, const transport::Datagram& datagram) {
     ++datagrams_;
+    ++arrivals_[source];
     if (flight_models_[source]) {
         flight_models_[source]->take(datagram);
     } else {
@@ -107,7 +112,7 @@ void Inbox::take_message(std::size_t source, const transport::Datagram& datagram
 }
 
 void Inbox::take(std::size_t source, const protocol::CanFrame& frame) {
-    ++bus_frames_;
+    ++arrivals_[source];
     if (buses_[source]) buses_[source]->take(frame);
 }
 

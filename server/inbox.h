@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include "config/config.h"
@@ -29,9 +30,17 @@ class Inbox final : public ArrivalTaker {
     [[nodiscard]] const FramesBehind& frames_behind() const noexcept { return frames_behind_; }
     /// The bus of a source, or null.
     [[nodiscard]] const BusInput* bus(std::size_t source) const noexcept { return buses_[source].get(); }
+    /// The flight model of a source, or null.
+    [[nodiscard]] const FlightGearInput* flight_model(std::size_t source) const noexcept {
+        return flight_models_[source].get();
+    }
+    /// Datagrams or CAN frames that a source has sent.
+    [[nodiscard]] std::uint64_t arrivals(std::size_t source) const noexcept { return arrivals_[source]; }
     [[nodiscard]] std::uint64_t datagrams() const noexcept { return datagrams_; }
     /// Datagrams and CAN frames.
-    [[nodiscard]] std::uint64_t arrivals() const noexcept { return datagrams_ + bus_frames_; }
+    [[nodiscard]] std::uint64_t arrivals() const noexcept {
+        return std::accumulate(arrivals_.begin(), arrivals_.end(), std::uint64_t{0});
+    }
 
   private:
     class Handler;
@@ -43,7 +52,7 @@ class Inbox final : public ArrivalTaker {
     protocol::cigi::Counters counters_;
     FramesBehind frames_behind_;
     std::uint64_t datagrams_ = 0;
-    std::uint64_t bus_frames_ = 0;
+    std::vector<std::uint64_t> arrivals_;
     /// By source; null where it speaks something else.
     std::vector<std::unique_ptr<BusInput>> buses_;
     std::vector<std::unique_ptr<FlightGearInput>> flight_models_;

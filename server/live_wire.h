@@ -33,6 +33,7 @@ class LiveWire final : public Wire {
 
     /// The bus of a source, or null.
     [[nodiscard]] const protocol::transport::CanReceiver* bus(std::size_t source) const noexcept;
+    /// From any thread.
     [[nodiscard]] std::vector<BusRow> bus_rows() const;
 
   private:

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "render/scene.h"
+#include "server/status/pass_state.h"
 
 namespace skyig::server {
 
@@ -30,6 +31,8 @@ class Painter {
     [[nodiscard]] virtual std::uint64_t gl_errors() const = 0;
     /// One luminance that all channels of the last frame are adapted to, cd/m2.
     [[nodiscard]] virtual double adaptation_cd_m2() const = 0;
+    /// The plan of the last frame into `rows`, as many as there is room for. \return how many
+    [[nodiscard]] virtual std::size_t passes(std::span<status::PassState> rows) const = 0;
     /// What draws, for people: "4.5 (Core Profile) Mesa 22.3.6, llvmpipe ...".
     [[nodiscard]] virtual std::string description() const = 0;
 };

@@ -93,7 +93,10 @@ void Recorder::finish() noexcept {
 
 bool Recorder::write_blocks(std::span<const std::byte> blocks) noexcept {
     if (file_failed_.load(std::memory_order_relaxed)) return false;
-    if (std::fwrite(blocks.data(), 1, blocks.size(), file_.get()) == blocks.size()) return true;
+    if (std::fwrite(blocks.data(), 1, blocks.size(), file_.get()) == blocks.size()) {
+        bytes_.fetch_add(blocks.size(), std::memory_order_relaxed);
+        return true;
+    }
     file_failed_.store(true, std::memory_order_relaxed);
     return false;
 }
@@ -124,7 +127,7 @@ void Recorder::can_frame(std::size_t source, const protocol::CanFrame& frame) no
 
 Recorder::Counts Recorder::counts() const noexcept {
     return {written_.load(std::memory_order_relaxed), lost_.load(std::memory_order_relaxed),
-            file_failed_.load(std::memory_order_relaxed)};
+            bytes_.load(std::memory_order_relaxed), file_failed_.load(std::memory_order_relaxed)};
 }
 
 void Recorder::write_out() {

@@ -37,6 +37,7 @@ class Recorder {
     struct Counts {
         std::uint64_t written = 0;
         std::uint64_t lost = 0;
+        std::uint64_t bytes = 0;
         bool file_failed = false;
     };
 
@@ -55,6 +56,7 @@ class Recorder {
     void datagram(std::size_t source, const protocol::transport::Datagram& datagram) noexcept;
     void can_frame(std::size_t source, const protocol::CanFrame& frame) noexcept;
 
+    /// From any thread.
     [[nodiscard]] Counts counts() const noexcept;
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
@@ -87,6 +89,7 @@ class Recorder {
     std::unique_ptr<Writer> writer_;
     std::atomic<std::uint64_t> written_{0};
     std::atomic<std::uint64_t> lost_{0};
+    std::atomic<std::uint64_t> bytes_{0};
     std::atomic<bool> file_failed_{false};
     std::mutex mutex_;
     std::condition_variable wake_;

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "server/report_json.h"
+
 namespace skyig::server {
 
 void FramesBehind::add(std::uint32_t frames) noexcept {
@@ -24,10 +26,6 @@ std::uint32_t FramesBehind::quantile(double q) const noexcept {
     return 0;
 }
 
-TimeRow time_row(std::string_view name, const TimeHistogram& times) {
-    return {std::string(name), times.quantile_ms(0.5), times.quantile_ms(0.95), times.largest_ms()};
-}
-
 namespace {
 
 std::string counts_text(const std::vector<NamedCount>& counts) {
@@ -40,14 +38,14 @@ std::string counts_text(const std::vector<NamedCount>& counts) {
     return text.empty() ? "none" : text;
 }
 
+}  // namespace
+
 nlohmann::ordered_json counts_json(const std::vector<NamedCount>& counts) {
     auto json = nlohmann::ordered_json::object();
     for (const NamedCount& count : counts)
         json[count.name] = count.count;
     return json;
 }
-
-}  // namespace
 
 double RunReport::cpu_pct() const noexcept {
     return elapsed_s > 0.0 ? 100.0 * cpu_s / elapsed_s : 0.0;
@@ -96,7 +94,7 @@ std::string to_table(const RunReport& report) {
     return text;
 }
 
-std::string to_json(const RunReport& report) {
+nlohmann::ordered_json report_json(const RunReport& report) {
     nlohmann::ordered_json json;
     json["version"] = report.version;
     json["renderer"] = report.renderer;
@@ -137,7 +135,11 @@ std::string to_json(const RunReport& report) {
                          {"earth_orientation", report.earth_orientation},
                          {"date_clamped", report.date_clamped},
                          {"leap_seconds_assumed", report.leap_seconds_assumed}};
-    return json.dump(2) + '\n';
+    return json;
+}
+
+std::string to_json(const RunReport& report) {
+    return report_json(report).dump(2) + '\n';
 }
 
 }  // namespace skyig::server

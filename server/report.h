@@ -61,8 +61,6 @@ struct TimeRow {
     double largest_ms = 0.0;
 };
 
-[[nodiscard]] TimeRow time_row(std::string_view name, const TimeHistogram& times);
-
 struct NamedCount {
     std::string name;
     std::uint64_t count = 0;

@@ -12,6 +12,7 @@
 #include "clients/skyig/ephem/almanac.h"
 #include "clients/skyig/ephem/star_name.h"
 #include "clients/skyig/options.h"
+#include "clients/skyig/status/http_get.h"
 #include "protocol/transport/endpoint.h"
 #include "server/ephemeris/time.h"
 
@@ -19,8 +20,8 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kVerbs{"host",   "shot",   "bench", "ephem",
-                                                 "decode", "replay", "record"};
+constexpr std::array<std::string_view, 9> kVerbs{"host",   "shot",   "bench",  "ephem", "decode",
+                                                 "replay", "record", "status", "top"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -326,6 +327,27 @@ void add_record(CLI::App& app, RecordOptions& options) {
     app.add_flag("--json", options.json, "tell the results as JSON");
 }
 
+CLI::Validator daemon_url() {
+    const auto check = [](std::string& text) -> std::string {
+        const auto read = status::parse_url(text);
+        return read ? std::string() : read.error();
+    };
+    return {check, "URL"};
+}
+
+void add_status(CLI::App& app, StatusOptions& options) {
+    CLI::Option* url =
+        app.add_option("--url", options.url, "where the daemon tells of itself (http://127.0.0.1:8006)")
+            ->check(daemon_url());
+    app.add_option_function<int>(
+           "--port", [&options](int port) { options.url = fmt::format("http://127.0.0.1:{}", port); },
+           "the same on this machine (8006)")
+        ->check(CLI::Range(1, 65535))
+        ->type_name("PORT")
+        ->excludes(url);
+    app.add_flag("--json", options.json, "tell it as JSON, in a watch one line each time");
+}
+
 /// The first word that is no option, when it is no verb either.
 const char* unknown_verb(int argc, const char* const* argv) {
     if (argc < 2 || argv[1][0] == '-') return nullptr;
@@ -342,6 +364,8 @@ struct Verbs {
     DecodeOptions decode;
     ReplayOptions replay;
     RecordOptions record;
+    StatusOptions status;
+    StatusOptions top;
     std::string order = "little";
     std::string horizon = "almanac";
 };
@@ -359,6 +383,16 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
                verbs.replay);
     add_record(*app.add_subcommand("record", "write down what comes to UDP ports and over CAN buses"),
                verbs.record);
+    CLI::App& status = *app.add_subcommand("status", "how a running daemon goes: frames, sources, counters");
+    add_status(status, verbs.status);
+    status.add_option("--watch", verbs.status.watch_s, "again every so many seconds (until Ctrl-C)")
+        ->check(finite_in(0.1, 3600.0));
+    CLI::App& top = *app.add_subcommand("top", "the same on the whole screen, again every second");
+    add_status(top, verbs.top);
+    verbs.top.watch_s = 1.0;
+    verbs.top.clear_screen = true;
+    top.add_option("--every", verbs.top.watch_s, "seconds from one page to the next (1)")
+        ->check(finite_in(0.1, 3600.0));
 }
 
 void require_one_body(const EphemOptions& options) {
@@ -377,6 +411,8 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     if (app.got_subcommand("decode")) invocation.options = verbs.decode;
     if (app.got_subcommand("replay")) invocation.options = verbs.replay;
     if (app.got_subcommand("record")) invocation.options = verbs.record;
+    if (app.got_subcommand("status")) invocation.options = verbs.status;
+    if (app.got_subcommand("top")) invocation.options = verbs.top;
 }
 
 std::string usage_error(const char* what, const char* verb) {

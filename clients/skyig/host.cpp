@@ -13,6 +13,7 @@
 #include "clients/skyig/flight.h"
 #include "clients/skyig/host_messages.h"
 #include "clients/skyig/host_result.h"
+#include "protocol/cigi/session.h"
 #include "protocol/transport/udp.h"
 #include "server/clock.h"
 #include "server/frame_pacer.h"
@@ -37,20 +38,6 @@ template <class Failure, class T>
 T value_or_throw(protocol::Result<T, std::string> result, std::string_view option = {}) {
     if (!result) throw Failure(fmt::format("{}{}{}", option, option.empty() ? "" : ": ", result.error()));
     return std::move(result).value();
-}
-
-std::string_view mode_name(cigi::IgMode mode) {
-    switch (mode) {
-        case cigi::IgMode::kStandby:
-            return "standby";
-        case cigi::IgMode::kOperate:
-            return "operate";
-        case cigi::IgMode::kDebug:
-            return "debug";
-        case cigi::IgMode::kOfflineMaintenance:
-            break;
-    }
-    return "offline maintenance";
 }
 
 Flight open_flight(const std::string& path) {
@@ -158,7 +145,7 @@ class HostRun {
         }
         throw std::runtime_error(
             fmt::format("{} answers, but is in mode {} after {:g} s: does another host own it?", options_.to,
-                        mode_name(statistics_.last().ig_mode), options_.wait_s));
+                        cigi::mode_name(statistics_.last().ig_mode), options_.wait_s));
     }
 
     void check_alive() const {
@@ -181,7 +168,7 @@ class HostRun {
         result.messages = messages_.frame_number();
         result.late_messages = late_;
         result.version = statistics_.version() == cigi::Version::k40 ? "4.0" : "3.3";
-        result.mode = mode_name(statistics_.last().ig_mode);
+        result.mode = cigi::mode_name(statistics_.last().ig_mode);
         result.database_number = statistics_.last().database_number;
         result.answers = statistics_.count();
         result.answers_lost = statistics_.lost();

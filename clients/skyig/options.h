@@ -142,10 +142,21 @@ struct RecordOptions {
     bool json = false;
 };
 
+/// skyig status, skyig top: what a running daemon tells of itself.
+struct StatusOptions {
+    /// Already checked.
+    std::string url = "http://127.0.0.1:8006";
+    /// Again every so many seconds.
+    std::optional<double> watch_s;
+    /// Each page takes the place of the one before, where a person watches.
+    bool clear_screen = false;
+    bool json = false;
+};
+
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
     std::variant<std::monostate, HostOptions, ShotOptions, BenchOptions, EphemOptions, DecodeOptions,
-                 ReplayOptions, RecordOptions>
+                 ReplayOptions, RecordOptions, StatusOptions>
         options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)

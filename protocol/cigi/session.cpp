@@ -10,6 +10,20 @@ std::int32_t frames_between(std::uint32_t before, std::uint32_t after) noexcept 
 
 }  // namespace
 
+std::string_view mode_name(IgMode mode) noexcept {
+    switch (mode) {
+        case IgMode::kStandby:
+            return "standby";
+        case IgMode::kOperate:
+            return "operate";
+        case IgMode::kDebug:
+            return "debug";
+        case IgMode::kOfflineMaintenance:
+            break;
+    }
+    return "offline maintenance";
+}
+
 Session::Session(const SessionOptions& options) noexcept
     : policy_(options.database), version_(options.version) {}
 

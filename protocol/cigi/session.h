@@ -3,11 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "protocol/cigi/packets.h"
 #include "protocol/cigi/wire.h"
 
 namespace skyig::protocol::cigi {
+
+/// "standby", "operate", "debug", "offline maintenance"
+[[nodiscard]] std::string_view mode_name(IgMode mode) noexcept;
 
 enum class DatabasePolicy : std::uint8_t {
     kAccept,  // any number n: -n for a frame at least, +n when the host has sent 0

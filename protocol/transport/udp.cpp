@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 
@@ -12,11 +11,11 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
-#include <string_view>
 #include <thread>
 
 #include "protocol/transport/event_signal.h"
 #include "protocol/transport/sender_filter.h"
+#include "protocol/transport/socket_address.h"
 #include "protocol/transport/work_budget.h"
 
 namespace skyig::protocol::transport {
@@ -39,18 +38,6 @@ constexpr std::int64_t kFloodWithinNs = 100'000'000;
 /// How long the kernel filters them until it is seen whether they still come.
 constexpr int kFilterMs = 250;
 
-sockaddr_in to_sockaddr(const Endpoint& endpoint) noexcept {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(endpoint.port);
-    address.sin_addr.s_addr = htonl(endpoint.address);
-    return address;
-}
-
-Endpoint to_endpoint(const sockaddr_in& address) noexcept {
-    return {ntohl(address.sin_addr.s_addr), ntohs(address.sin_port)};
-}
-
 std::int64_t to_ns(const timespec& time) noexcept {
     return static_cast<std::int64_t>(time.tv_sec) * kNanosecondsPerSecond + time.tv_nsec;
 }
@@ -59,25 +46,6 @@ std::int64_t read_clock_ns(clockid_t clock) noexcept {
     timespec time{};
     ::clock_gettime(clock, &time);
     return to_ns(time);
-}
-
-/// One line: what failed and what would help.
-std::string open_error(const Endpoint& endpoint, int error) {
-    std::string_view reason;
-    switch (error) {
-        case EADDRINUSE:
-            reason = "address already in use; stop the other program or choose another listen port";
-            break;
-        case EADDRNOTAVAIL:
-            reason = "this machine has no such address; listen on one of its own, 127.0.0.1 or 0.0.0.0";
-            break;
-        case EACCES:
-            reason = "not permitted; choose a listen port above 1023";
-            break;
-        default:
-            return fmt::format("udp {}: {}", to_string(endpoint), std::strerror(error));
-    }
-    return fmt::format("udp {}: {}", to_string(endpoint), reason);
 }
 
 FileDescriptor open_socket() noexcept {
@@ -264,7 +232,7 @@ bool UdpSender::send(const Endpoint& to, std::span<const std::byte> bytes) noexc
 }
 
 Result<UdpReceiver, std::string> UdpReceiver::open(const UdpOptions& options) {
-    const auto failed = [&options] { return Error{open_error(options.listen, errno)}; };
+    const auto failed = [&options] { return Error{bind_error("udp", options.listen, errno)}; };
     FileDescriptor socket = open_socket();
     if (!socket) return failed();
     const int on = 1;

@@ -28,20 +28,31 @@ std::optional<LinkChange> Authority::heard(std::size_t source) noexcept {
     return LinkChange{source, before, LinkState::kLive};
 }
 
-bool Authority::gives_way(const Hold& hold, Aspect aspect, std::size_t to) const noexcept {
-    if (!hold.source) return true;
+std::optional<HoldReason> Authority::gives_way(const Hold& hold, Aspect aspect,
+                                               std::size_t to) const noexcept {
+    if (!hold.source) return HoldReason::kFirst;
     const SourceRule& holder = rules_[*hold.source];
-    if (rules_[to].rights.priority > holder.rights.priority) return true;
-    if (links_[*hold.source].state == LinkState::kLost) return true;
-    return aspect == Aspect::kOwnship && hold.silent_s > holder.rights.stale_after_s;
+    if (rules_[to].rights.priority > holder.rights.priority) return HoldReason::kPriority;
+    if (links_[*hold.source].state == LinkState::kLost) return HoldReason::kHolderLost;
+    if (aspect == Aspect::kOwnship && hold.silent_s > holder.rights.stale_after_s)
+        return HoldReason::kHolderStale;
+    return std::nullopt;
 }
 
 bool Authority::claim(std::size_t source, Aspect aspect) noexcept {
     const auto index = static_cast<std::size_t>(aspect);
     if (!rules_[source].rights.owns.test(index)) return false;
     Hold& hold = holds_[index];
-    if (hold.source != source && !gives_way(hold, aspect, source)) return false;
-    hold = {.source = source, .silent_s = 0.0, .heard_since_step = true};
+    HoldReason reason = hold.reason;
+    if (hold.source != source) {
+        const std::optional<HoldReason> rule = gives_way(hold, aspect, source);
+        if (!rule) {
+            ++links_[source].overruled[index];
+            return false;
+        }
+        reason = *rule;
+    }
+    hold = {.source = source, .reason = reason, .silent_s = 0.0, .heard_since_step = true};
     return true;
 }
 

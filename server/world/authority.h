@@ -18,6 +18,13 @@ enum class LinkState : std::uint8_t { kWaiting, kLive, kStale, kLost };
 
 inline constexpr std::array<std::string_view, 4> kLinkStateNames{"waiting", "live", "stale", "lost"};
 
+/// How a source came to hold an aspect: it spoke of it first, its priority is larger than that of the holder
+/// before, or that one was lost, or what it had said was stale.
+enum class HoldReason : std::uint8_t { kFirst, kPriority, kHolderLost, kHolderStale };
+
+inline constexpr std::array<std::string_view, 4> kHoldReasonNames{"first", "priority", "holder_lost",
+                                                                  "holder_stale"};
+
 /// One source as the settings have it: the host first, then the [[source]] tables in their order.
 struct SourceRule {
     std::string name;
@@ -66,6 +73,14 @@ class Authority {
     [[nodiscard]] std::optional<std::size_t> holder(config::Aspect aspect) const noexcept {
         return holds_[static_cast<std::size_t>(aspect)].source;
     }
+    /// Of the holder, if there is one.
+    [[nodiscard]] HoldReason hold_reason(config::Aspect aspect) const noexcept {
+        return holds_[static_cast<std::size_t>(aspect)].reason;
+    }
+    /// How often the source spoke of an aspect that it owns while another held it.
+    [[nodiscard]] std::uint64_t overruled(std::size_t source, config::Aspect aspect) const noexcept {
+        return links_[source].overruled[static_cast<std::size_t>(aspect)];
+    }
     /// Some source may own the aspect at all.
     [[nodiscard]] bool owned(config::Aspect aspect) const noexcept;
 
@@ -75,16 +90,20 @@ class Authority {
         double silent_s = 0.0;
         bool heard_since_step = false;
         std::uint64_t losses = 0;
+        std::array<std::uint64_t, config::kAspectCount> overruled{};
     };
     struct Hold {
         std::optional<std::size_t> source;
+        HoldReason reason = HoldReason::kFirst;
         /// Since the holder last spoke of it.
         double silent_s = 0.0;
         bool heard_since_step = false;
     };
 
     std::optional<LinkChange> age(std::size_t source, double step_s) noexcept;
-    [[nodiscard]] bool gives_way(const Hold& hold, config::Aspect aspect, std::size_t to) const noexcept;
+    /// By which rule a source that does not hold it may have it now; nothing: by none.
+    [[nodiscard]] std::optional<HoldReason> gives_way(const Hold& hold, config::Aspect aspect,
+                                                      std::size_t to) const noexcept;
 
     std::vector<SourceRule> rules_;
     std::vector<LinkAge> links_;

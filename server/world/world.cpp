@@ -46,20 +46,6 @@ AirState configured_air(const config::Air& air) {
     return state;
 }
 
-std::string_view mode_name(cigi::IgMode mode) {
-    switch (mode) {
-        case cigi::IgMode::kOperate:
-            return "operate";
-        case cigi::IgMode::kDebug:
-            return "debug";
-        case cigi::IgMode::kOfflineMaintenance:
-            return "offline maintenance";
-        case cigi::IgMode::kStandby:
-            break;
-    }
-    return "standby";
-}
-
 std::string_view version_name(cigi::Version version) {
     return version == cigi::Version::k40 ? "4.0" : "3.3";
 }
@@ -190,7 +176,7 @@ void World::note_events(const cigi::SessionEvents& events) {
     }
     if (events.mode_changed) {
         log_.limited("mode", kRepeatAfter_s, Severity::kInfo, "host {} set mode {}", to_string(from_),
-                     mode_name(session_.mode()));
+                     cigi::mode_name(session_.mode()));
     }
 }
 

@@ -456,10 +456,13 @@ TEST(Config, FilesThatCannotBeReadSayWhy) {
 TEST(Config, ExamplesLoadAndDescribeThemselves) {
     const LoadResult one = load_config(SKYIG_SOURCE_DIR "/config/examples/one-channel.toml");
     ASSERT_TRUE(one) << to_text(one.errors.front());
-    EXPECT_EQ(describe(*one.config), "ok: 1 channel, CIGI 3.3+4.0 on udp 127.0.0.1:8004, headless");
+    EXPECT_EQ(describe(*one.config),
+              "ok: 1 channel, CIGI 3.3+4.0 on udp 127.0.0.1:8004, headless, status on http://127.0.0.1:8006");
     const LoadResult three = load_config(SKYIG_SOURCE_DIR "/config/examples/three-channels.toml");
     ASSERT_TRUE(three) << to_text(three.errors.front());
-    EXPECT_EQ(describe(*three.config), "ok: 3 channels, CIGI 3.3+4.0 on udp 127.0.0.1:8004, headless");
+    EXPECT_EQ(
+        describe(*three.config),
+        "ok: 3 channels, CIGI 3.3+4.0 on udp 127.0.0.1:8004, headless, status on http://127.0.0.1:8006");
     ASSERT_EQ(three.config->channels.size(), 3U);
     EXPECT_EQ(three.config->channels[0].yaw_deg, -60.0);
     EXPECT_EQ(three.config->channels[2].yaw_deg, 60.0);

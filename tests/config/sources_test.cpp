@@ -1,4 +1,4 @@
-// [host] and [[source]]: who is heard, where, and about what; each mistake with its own error.
+// [host] and [[source]]: who is heard, where, and about what; [status]: each mistake with its own error.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,6 +46,32 @@ TEST(Sources, HostOwnsEverythingByDefault) {
     EXPECT_TRUE(config.host.rights.owns.all());
     EXPECT_EQ(config.host.rights.priority, 50);
     EXPECT_TRUE(config.sources.empty());
+}
+
+TEST(Status, PortIsOnUnlessTheFileSaysOtherwise) {
+    const Status usual = good("").status;
+    EXPECT_TRUE(usual.enabled);
+    EXPECT_FALSE(usual.listen_given);
+    EXPECT_EQ(usual.listen, (UdpAddress{"127.0.0.1", 8006}));
+    const Status given = good("[status]\nlisten = \"0.0.0.0:9100\"").status;
+    EXPECT_TRUE(given.listen_given);
+    EXPECT_EQ(given.listen, (UdpAddress{"0.0.0.0", 9100}));
+    const Config off = good("[status]\nenabled = false");
+    EXPECT_FALSE(off.status.enabled);
+    EXPECT_THAT(describe(off), HasSubstr("no status port"));
+    EXPECT_THAT(describe(good("[status]\nlisten = \"127.0.0.1:9100\"")),
+                HasSubstr("status on http://127.0.0.1:9100"));
+}
+
+TEST(Status, MistakesSayWhatWouldBeRight) {
+    EXPECT_THAT(
+        error_of("[status]\nlisten = \"localhost:8006\""),
+        HasSubstr("site.toml:3:10: status.listen: is \"localhost:8006\"; it must be an IPv4 address and a "
+                  "port, such as \"127.0.0.1:8006\""));
+    EXPECT_THAT(error_of("[status]\nlisten = \"127.0.0.1:65536\""), HasSubstr("status.listen"));
+    EXPECT_THAT(error_of("[status]\nenabled = 1"), HasSubstr("status.enabled"));
+    EXPECT_THAT(error_of("[status]\nport = 8006"), HasSubstr("status.port: unknown key"));
+    EXPECT_THAT(error_of("[staus]\nenabled = true"), HasSubstr("did you mean \"status\"?"));
 }
 
 TEST(Sources, EveryKeyOfACigiSourceIsRead) {

@@ -145,6 +145,74 @@ TEST(Link, SecondHostGarbageAndSilenceAreCountedAndToldOnce) {
     EXPECT_EQ(lines_with(log, " lost: "), 1) << log;
 }
 
+/// From the line that says where it is.
+std::string status_url(const Process& daemon) {
+    EXPECT_TRUE(daemon.wait_for_err("status on http://"));
+    const std::string log = daemon.err_so_far();
+    const std::size_t at = log.find("http://");
+    return log.substr(at, log.find("/status", at) - at);
+}
+
+TEST(Link, StatusShowsTheHostLiveAndItsCountersRise) {
+    Site site;
+    Process daemon(daemon_command(site));
+    const std::string url = status_url(daemon);
+    const auto status = [&url] {
+        const Finished told = run({SKYIG_PROGRAM, "status", "--url", url, "--json"});
+        EXPECT_EQ(told.status, 0) << told.err;
+        return Json::parse(told.out);
+    };
+    const Json before = status();
+    EXPECT_EQ(before.at("sources").at(0).at("link"), "waiting");
+    EXPECT_TRUE(before.at("authority").at("control").at("holder").is_null());
+
+    Process host(host_command(site, "4.0", "little", "2"));
+    ASSERT_TRUE(daemon.wait_for_err("set mode operate")) << daemon.err_so_far();
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const Json first = status();
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    const Json second = status();
+    EXPECT_EQ(second.at("sources").at(0).at("link"), "live");
+    EXPECT_EQ(second.at("sources").at(0).at("peer"), site.reply());
+    EXPECT_EQ(second.at("sources").at(0).at("heard_at"), site.listen());
+    EXPECT_EQ(second.at("authority").at("ownship").at("holder"), "host");
+    EXPECT_EQ(second.at("world").at("mode"), "operate");
+    const auto rise = [&](const char* key) {
+        return second.at("packets").at(key).get<int>() - first.at("packets").at(key).get<int>();
+    };
+    std::printf("in half a second %d more IG Control, %d more frames\n", rise("ig_control"),
+                second.at("frames").get<int>() - first.at("frames").get<int>());
+    EXPECT_GE(rise("ig_control"), 5);
+    EXPECT_GE(rise("entity_position"), 5);
+    EXPECT_GT(second.at("frames"), first.at("frames"));
+    EXPECT_GT(second.at("world").at("scene_time_s"), first.at("world").at("scene_time_s"));
+
+    EXPECT_EQ(host.wait().status, 0);
+    ASSERT_TRUE(daemon.wait_for_err(" lost: "));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const Json after = status();
+    EXPECT_EQ(after.at("sources").at(0).at("link"), "lost");
+    EXPECT_EQ(after.at("sources").at(0).at("losses"), 1);
+    EXPECT_THAT(run({SKYIG_PROGRAM, "status", "--url", url}).out, HasSubstr("packets         ig_control "));
+    stop(daemon, site);
+    const Finished gone = run({SKYIG_PROGRAM, "status", "--url", url});
+    EXPECT_EQ(gone.status, 1);
+    EXPECT_THAT(gone.err, HasSubstr("nobody listens there"));
+}
+
+TEST(Link, ATakenStatusPortIsAnErrorOnlyWhereTheSettingsNameIt) {
+    const Site first;
+    Process daemon(daemon_command(first));
+    const std::string address = status_url(daemon).substr(7);
+    const Site second;
+    std::string settings = read_text(second.config_path);
+    settings.replace(settings.find("127.0.0.1:0"), 11, address);
+    const Finished refused =
+        run({SKYIGD_PROGRAM, "--config", second.scratch.write("same.toml", settings), "--frames", "1"});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_THAT(refused.err, HasSubstr("skyigd: status: tcp " + address + ": address already in use"));
+}
+
 TEST(Link, HostComesBackAfterSilence) {
     Site site;
     Process daemon(daemon_command(site));

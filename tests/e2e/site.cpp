@@ -58,7 +58,8 @@ std::string channel_toml(const std::string& name, int width_px, int height_px, i
 Site::Site() {
     const std::string text = "version = 1\n[daemon]\nrate_hz = 60\n[host]\nlisten = \"" + listen() +
                              "\"\nreply_to = \"" + reply() +
-                             "\"\nlost_after_s = 0.4\n[start]\nutc = \"2026-06-21T12:00:00Z\"\n";
+                             "\"\nlost_after_s = 0.4\n[status]\nlisten = \"127.0.0.1:0\"\n[start]\nutc = "
+                             "\"2026-06-21T12:00:00Z\"\n";
     config_path = scratch.write("site.toml", text + channel_toml("only", 64, 48, 0));
 }
 

@@ -42,6 +42,10 @@ class FakePainter final : public Painter {
     }
     std::uint64_t gl_errors() const override { return 0; }
     double adaptation_cd_m2() const override { return 100.0; }
+    std::size_t passes(std::span<status::PassState> rows) const override {
+        rows[0] = {"dome", true, "always"};
+        return 1;
+    }
     std::string description() const override { return "fake"; }
 
     render::Scene last_scene;
@@ -136,7 +140,9 @@ class FrameLoopTest : public ::testing::Test {
     FrameLoop& loop(std::uint64_t frames = 0, ImageWriter* images = nullptr, std::uint64_t every = 1) {
         world_ = std::make_unique<world::World>(config_, start_time(config_.start, clock_), log_);
         loop_ = std::make_unique<FrameLoop>(
-            config_, FrameLoopParts{clock_, log_, pace_, link_, *world_, painter_, images}, frames, every);
+            config_,
+            FrameLoopParts{clock_, log_, pace_, link_, *world_, painter_, images, nullptr, status_.get()},
+            frames, every);
         return *loop_;
     }
 
@@ -168,6 +174,7 @@ class FrameLoopTest : public ::testing::Test {
     FakeWire link_;
     FakePainter painter_{clock_};
     std::unique_ptr<world::World> world_;
+    std::unique_ptr<status::SnapshotExchange> status_ = std::make_unique<status::SnapshotExchange>();
     std::unique_ptr<FrameLoop> loop_;
 };
 
@@ -414,6 +421,35 @@ TEST_F(FrameLoopTest, HandsEveryNthFrameToTheImageWriter) {
     EXPECT_EQ(paths, (std::vector<std::string>{"out/centre_000005.png", "out/centre_000010.png",
                                                "out/centre_000015.png", "out/centre_000020.png"}));
     EXPECT_EQ(loop_->report().images_written, 4U);
+}
+
+TEST_F(FrameLoopTest, PublishesASnapshotTenTimesASecond) {
+    painter_.prepare_ns = 12 * kMs;
+    loop();
+    std::uint64_t published = 0;
+    std::uint64_t frames = 0;
+    const auto run = [&](std::uint64_t until) {
+        while (loop_->frame_number() < until) {
+            loop_->run_frame();
+            if (status_->newest().frames == frames) continue;
+            frames = status_->newest().frames;
+            ++published;
+        }
+    };
+    link_.put(kHost, Message(cigi::Version::k33, cigi::IgMode::kOperate, 1).at(45.0).bytes());
+    run(100);
+    const status::Snapshot& snapshot = status_->newest();
+    EXPECT_NEAR(static_cast<double>(published), loop_->report().elapsed_s * 10.0, 3.0);
+    EXPECT_GE(frames, 90U);
+    EXPECT_NEAR(snapshot.world.ownship.position.latitude_deg, 45.0, 1e-9);
+    EXPECT_NEAR(snapshot.world.sun_elevation_deg, 60.0, 15.0);
+    EXPECT_EQ(snapshot.world.adaptation_cd_m2, 100.0);
+    EXPECT_EQ(snapshot.sources[0].arrivals, 1U);
+    EXPECT_EQ(snapshot.aspects[0].holder, 0U);
+    EXPECT_EQ(snapshot.pass_count, 1U);
+    // 14 ms of work on a 10 ms grid, most of it shared.
+    EXPECT_EQ(snapshot.record.late(status::LateCause::kShared), snapshot.late_frames);
+    EXPECT_GT(snapshot.late_frames, 80U);
 }
 
 TEST_F(FrameLoopTest, AllocatesNothingInSteadyState) {

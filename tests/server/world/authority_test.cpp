@@ -60,6 +60,27 @@ TEST(Authority, LargerPriorityTakesOverAtOnceAndComesBack) {
     EXPECT_TRUE(speak(authority, kOther, Aspect::kTime));
 }
 
+TEST(Authority, TellsHowAHolderCameToItAndWhoWasOverruled) {
+    Authority authority({rule("a", 50), rule("b", 60), rule("c", 50)});
+    constexpr std::size_t kThird = 2;
+    EXPECT_TRUE(speak(authority, kHost, Aspect::kOwnship));
+    EXPECT_EQ(authority.hold_reason(Aspect::kOwnship), HoldReason::kFirst);
+    EXPECT_TRUE(speak(authority, kOther, Aspect::kOwnship));
+    EXPECT_EQ(authority.hold_reason(Aspect::kOwnship), HoldReason::kPriority);
+    EXPECT_FALSE(speak(authority, kHost, Aspect::kOwnship));
+    EXPECT_FALSE(speak(authority, kHost, Aspect::kOwnship));
+    EXPECT_EQ(authority.overruled(kHost, Aspect::kOwnship), 2U);
+    EXPECT_EQ(authority.overruled(kOther, Aspect::kOwnship), 0U);
+    wait(authority, 0.6);
+    EXPECT_TRUE(speak(authority, kHost, Aspect::kOwnship));
+    EXPECT_EQ(authority.hold_reason(Aspect::kOwnship), HoldReason::kHolderStale);
+    wait(authority, 1.2);
+    EXPECT_TRUE(speak(authority, kThird, Aspect::kOwnship));
+    EXPECT_EQ(authority.hold_reason(Aspect::kOwnship), HoldReason::kHolderLost);
+    EXPECT_TRUE(speak(authority, kThird, Aspect::kOwnship));
+    EXPECT_EQ(authority.hold_reason(Aspect::kOwnship), HoldReason::kHolderLost);
+}
+
 TEST(Authority, NobodySaysWhatItDoesNotOwn) {
     Aspects weather;
     weather.set(static_cast<std::size_t>(Aspect::kWeather));

@@ -1,0 +1,239 @@
+// The server against clients of all kinds: quick, slow, silent, garbled, many.
+#include "server/status/http_server.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "protocol/transport/tcp.h"
+#include "server/status/status_port.h"
+#include "tests/server/status/example.h"
+
+namespace skyig::server::status {
+namespace {
+
+namespace transport = protocol::transport;
+using std::chrono::milliseconds;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class Client {
+  public:
+    explicit Client(const transport::Endpoint& to) {
+        auto connected = transport::connect_tcp(to, milliseconds(5000));
+        if (connected) socket_ = std::move(connected).value();
+    }
+
+    [[nodiscard]] bool connected() const { return static_cast<bool>(socket_); }
+    /// False when the other side does not take it any more.
+    bool send(std::string_view text) const {
+        return ::send(socket_.get(), text.data(), text.size(), MSG_NOSIGNAL) ==
+               static_cast<ssize_t>(text.size());
+    }
+    /// All until the end; nothing if that does not come in time.
+    [[nodiscard]] std::optional<std::string> receive(milliseconds limit = milliseconds(5000)) const {
+        std::string text;
+        for (;;) {
+            pollfd event{socket_.get(), POLLIN, 0};
+            if (::poll(&event, 1, static_cast<int>(limit.count())) <= 0) return std::nullopt;
+            char buffer[4096];
+            const ssize_t got = ::recv(socket_.get(), buffer, sizeof(buffer), 0);
+            if (got <= 0) return text;
+            text.append(buffer, static_cast<std::size_t>(got));
+        }
+    }
+
+  private:
+    transport::FileDescriptor socket_;
+};
+
+class HttpServerTest : public ::testing::Test {
+  protected:
+    /// A page of `page_bytes` under /page.
+    void open(HttpOptions options = {}, std::size_t page_bytes = 100) {
+        const auto page = std::make_shared<const std::string>(page_bytes, 'x');
+        auto opened = HttpServer::open(options, clock_, [page](std::string_view path, const PortCounts&) {
+            return path == "/page" ? HttpAnswer{200, "text/plain", page} : line_answer(404, "no page");
+        });
+        ASSERT_TRUE(opened) << opened.error();
+        server_ = std::move(opened).value();
+    }
+    [[nodiscard]] Client client() const { return Client(server_->local()); }
+    [[nodiscard]] std::string ask(std::string_view request) const {
+        const Client one = client();
+        one.send(request);
+        return one.receive().value_or("nothing");
+    }
+
+    SystemClock clock_;
+    std::unique_ptr<HttpServer> server_;
+};
+
+constexpr std::string_view kGet = "GET /page HTTP/1.1\r\nHost: localhost\r\n\r\n";
+
+TEST_F(HttpServerTest, AnswersGetAndHeadAndRefusesTheRest) {
+    open();
+    const std::string got = ask(kGet);
+    EXPECT_THAT(got, StartsWith("HTTP/1.1 200 OK\r\n"));
+    EXPECT_THAT(got, ::testing::EndsWith("\r\n\r\n" + std::string(100, 'x')));
+    const std::string head = ask("HEAD /page HTTP/1.1\r\n\r\n");
+    EXPECT_THAT(head, HasSubstr("Content-Length: 100\r\n"));
+    EXPECT_THAT(head, ::testing::EndsWith("\r\n\r\n"));
+    EXPECT_THAT(ask("GET /other HTTP/1.1\r\n\r\n"), StartsWith("HTTP/1.1 404 "));
+    for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS"})
+        EXPECT_THAT(ask(std::string(method) + " /page HTTP/1.1\r\n\r\n"), StartsWith("HTTP/1.1 405 "))
+            << method;
+    EXPECT_THAT(ask("GET /page HTTP/3.0\r\n\r\n"), StartsWith("HTTP/1.1 505 "));
+    EXPECT_THAT(ask("\x16\x03\x01\x02"), StartsWith("HTTP/1.1 400 "));
+    EXPECT_THAT(ask("GET /page HTTP/1.1\r\nHost: evil.example\r\n\r\n"), StartsWith("HTTP/1.1 403 "));
+    const PortCounts counts = server_->counts();
+    EXPECT_EQ(counts.connections, 10U);
+    EXPECT_EQ(counts.answered, 2U);
+    EXPECT_EQ(counts.refused, 8U);
+}
+
+TEST_F(HttpServerTest, RequestsThatAreTooLongAreRefusedWhole) {
+    open();
+    const std::string answer = ask("GET /page HTTP/1.1\r\nA: " + std::string(60'000, 'y'));
+    EXPECT_THAT(answer, StartsWith("HTTP/1.1 431 "));
+    EXPECT_THAT(answer, HasSubstr("4096 bytes"));
+}
+
+TEST_F(HttpServerTest, TakesARequestByteByByte) {
+    open();
+    const Client slow = client();
+    for (const char c : kGet) {
+        ASSERT_TRUE(slow.send({&c, 1}));
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    EXPECT_THAT(slow.receive().value_or(""), StartsWith("HTTP/1.1 200 "));
+}
+
+TEST_F(HttpServerTest, ASilentClientIsLetGoAndHoldsNobodyUp) {
+    HttpOptions options;
+    options.time_limit = milliseconds(200);
+    open(options);
+    const Client silent = client();
+    silent.send("GET /pa");
+    EXPECT_THAT(ask(kGet), StartsWith("HTTP/1.1 200 "));
+    EXPECT_EQ(silent.receive(), "");
+    EXPECT_EQ(server_->counts().timed_out, 1U);
+}
+
+TEST_F(HttpServerTest, AClientThatDoesNotReadIsLetGo) {
+    HttpOptions options;
+    options.time_limit = milliseconds(300);
+    open(options, std::size_t{32} << 20U);
+    const Client deaf = client();
+    deaf.send(kGet);
+    EXPECT_THAT(ask("HEAD /page HTTP/1.1\r\n\r\n"), StartsWith("HTTP/1.1 200 "));
+    for (int i = 0; i < 100 && server_->counts().timed_out == 0; ++i)
+        std::this_thread::sleep_for(milliseconds(20));
+    EXPECT_EQ(server_->counts().timed_out, 1U);
+}
+
+TEST_F(HttpServerTest, AnswersAHundredAtOnce) {
+    open();
+    std::vector<std::unique_ptr<Client>> clients;
+    for (int i = 0; i < 100; ++i)
+        clients.push_back(std::make_unique<Client>(server_->local()));
+    for (const auto& one : clients)
+        ASSERT_TRUE(one->connected() && one->send(kGet));
+    int answered = 0;
+    for (const auto& one : clients)
+        answered += one->receive().value_or("").starts_with("HTTP/1.1 200 ") ? 1 : 0;
+    EXPECT_EQ(answered, 100);
+}
+
+TEST_F(HttpServerTest, SilentCrowdGivesWayToOneThatAsks) {
+    HttpOptions options;
+    options.connections = 4;
+    options.gives_way_after = milliseconds(50);
+    options.time_limit = milliseconds(60'000);
+    open(options);
+    std::vector<std::unique_ptr<Client>> crowd;
+    for (int i = 0; i < 40; ++i)
+        crowd.push_back(std::make_unique<Client>(server_->local()));
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_THAT(ask(kGet), StartsWith("HTTP/1.1 200 "));
+    const double waited_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    std::printf("  behind 40 silent clients, 4 places: answered after %.2f s\n", waited_s);
+    EXPECT_LT(waited_s, 5.0);
+    EXPECT_GE(server_->counts().timed_out, 30U);
+}
+
+TEST_F(HttpServerTest, TakesSoManyASecondAndNoMore) {
+    HttpOptions options;
+    options.connections_per_s = 50;
+    open(options);
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < 30; ++i)
+        EXPECT_THAT(ask(kGet), StartsWith("HTTP/1.1 200 "));
+    const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    std::printf("  30 requests at 50 a second: %.2f s\n", took_s);
+    EXPECT_GE(took_s, 0.45);
+    EXPECT_EQ(server_->counts().answered, 30U);
+}
+
+TEST_F(HttpServerTest, ATakenPortIsOneLine) {
+    open();
+    HttpOptions same;
+    same.listen = server_->local();
+    const auto second = HttpServer::open(same, clock_, {});
+    ASSERT_FALSE(second);
+    EXPECT_THAT(second.error(), HasSubstr("tcp " + to_string(server_->local()) + ": address already in use"));
+}
+
+TEST_F(HttpServerTest, EndsAtOnceWithClientsConnected) {
+    open();
+    const Client waiting = client();
+    waiting.send("GET ");
+    const auto start = std::chrono::steady_clock::now();
+    server_.reset();
+    EXPECT_LT(std::chrono::steady_clock::now() - start, milliseconds(1000));
+}
+
+TEST(StatusPort, ServesThePagesOfTheNewestSnapshot) {
+    const SystemClock clock;
+    const auto exchange = std::make_unique<SnapshotExchange>();
+    config::Status settings;
+    settings.listen.port = 0;
+    auto port = StatusPort::open(settings, tests::example_facts(), *exchange, clock, [] {
+        Edges edges;
+        edges.recorder = {"a.pcapng", 5, 0, 1000, false};
+        return edges;
+    });
+    ASSERT_TRUE(port) << port.error();
+    const auto get = [&port](const std::string& path) {
+        const Client client((*port)->local());
+        client.send("GET " + path + " HTTP/1.1\r\n\r\n");
+        return client.receive().value_or("nothing");
+    };
+    EXPECT_THAT(get("/healthz"), ::testing::AllOf(StartsWith("HTTP/1.1 503 "), HasSubstr("no frame yet\n")));
+    Snapshot& draft = exchange->draft();
+    draft.frames = 77;
+    FrameParts parts;
+    parts.start_ns = clock.monotonic_ns();
+    draft.record.add(parts, false, 0.02);
+    exchange->publish();
+    EXPECT_THAT(get("/healthz"),
+                ::testing::AllOf(StartsWith("HTTP/1.1 200 "), ::testing::EndsWith("\r\n\r\nok\n")));
+    EXPECT_THAT(get("/status"), ::testing::AllOf(HasSubstr("Content-Type: application/json\r\n"),
+                                                 HasSubstr("\"frames\": 77"), HasSubstr("a.pcapng")));
+    EXPECT_THAT(get("/metrics?x"),
+                ::testing::AllOf(HasSubstr("version=0.0.4"), HasSubstr("\nskyig_frames_total 77\n")));
+    EXPECT_THAT(get("/"), ::testing::AllOf(StartsWith("HTTP/1.1 404 "), HasSubstr("/status")));
+    std::this_thread::sleep_for(milliseconds(1200));
+    EXPECT_THAT(get("/healthz"), ::testing::AllOf(StartsWith("HTTP/1.1 503 "), HasSubstr("no frame for 1.")));
+}
+
+}  // namespace
+}  // namespace skyig::server::status
