@@ -13,6 +13,10 @@ namespace skyig::config {
 void read_host(TableReader& table, Host& host);
 void read_sources(TableReader& root, ErrorList& errors, const Host& host, std::vector<Source>& sources);
 
+/// Reads [air] and [sky] with its tables.
+void read_air(TableReader table, Air& air);
+void read_sky(TableReader table, Sky& sky);
+
 /// Reads the [[channel]] tables and checks them against one another.
 void read_channels(TableReader& root, ErrorList& errors, std::vector<Channel>& channels);
 

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "render/channel.h"
+#include "render/sky_settings.h"
 
 namespace skyig::render {
 
@@ -101,6 +102,8 @@ struct Scene {
     /// Mercury, Venus, Mars, Jupiter, Saturn; switched and faded with the stars.
     std::array<Planet, kPlanetCount> planets{};
     Air air;
+    /// Which model draws the day sky.
+    SkySettings sky;
 
     std::array<ChannelView, kMaxChannels> views{};
     std::size_t view_count = 0;

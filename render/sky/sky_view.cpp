@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "render/sky/azimuth.h"
 #include "render/sky/path.h"
 #include "render/sky/phase.h"
 
@@ -46,13 +47,6 @@ std::array<float, 4> catmull_rom(float t) {
     const float t3 = t2 * t;
     return {0.5F * (2.0F * t2 - t - t3), 0.5F * (2.0F - 5.0F * t2 + 3.0F * t3),
             0.5F * (t + 4.0F * t2 - 3.0F * t3), 0.5F * (t3 - t2)};
-}
-
-// Absolute azimuth in 0..pi of any angle. The exact remainder is slow and seldom needed.
-float folded(float azimuth_rad) {
-    constexpr float kPi = std::numbers::pi_v<float>;
-    const float size = std::abs(azimuth_rad);
-    return size <= kPi ? size : std::min(std::abs(std::remainder(size, 2.0F * kPi)), kPi);
 }
 
 // A grid with one node of margin on every side, so that the cubic needs no special cases.
@@ -130,6 +124,7 @@ struct SkyView::State {
     [[nodiscard]] double elevation_rad(Side side, int row) const noexcept;
     void march(const Path& path, int count) noexcept;
     [[nodiscard]] Node node_of(const Lanes& all, const Lanes& hazy) const noexcept;
+    [[nodiscard]] SkyParts parts(Side side, float elevation_rad, float azimuth_rad) const noexcept;
     [[nodiscard]] glm::vec3 look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept;
 
     SkyViewSize size;
@@ -198,6 +193,7 @@ void SkyView::State::march(const Path& path, int count) noexcept {
     for (std::size_t j = 0; j < static_cast<std::size_t>(count); ++j) {
         kernels().add_first_order(data.medium, data.column_table(), path, sources[j], light[j], aerosol[j]);
     }
+    if (data.moments.empty()) return;
     kernels().add_higher_orders(data.medium, data.moment_table(), path, sources.data(), count, light.data());
 }
 
@@ -232,30 +228,34 @@ void SkyView::State::build_row(int row) noexcept {
     grid.close_row(line);
 }
 
-glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept {
-    if (air == nullptr || !std::isfinite(elevation_rad) || !std::isfinite(azimuth_rad))
-        return glm::vec3(0.0F);
+SkyParts SkyView::State::parts(Side side, float elevation_rad, float azimuth_rad) const noexcept {
+    if (air == nullptr || !std::isfinite(elevation_rad) || !std::isfinite(azimuth_rad)) return {};
     const auto horizon = static_cast<float>(horizon_rad);
-    const float around = folded(azimuth_rad);
     const float angle = side == Side::kSky ? elevation_rad - horizon : horizon - elevation_rad;
     const RowMap& map = side == Side::kSky ? sky_map : ground_map;
     const auto range = static_cast<float>(map.range_rad);
-    if (side == Side::kSky && angle >= range && highest_rad < kHalfPi) return glm::vec3(0.0F);
-    const float within = std::clamp(angle, 0.0F, range);
+    if (side == Side::kSky && angle >= range && highest_rad < kHalfPi) return {};
     const Grid& grid = side == Side::kSky ? sky : ground;
-    const Node node =
-        grid.sample(map.w(within) * static_cast<float>(grid.rows() - 1),
-                    around * std::numbers::inv_pi_v<float> * static_cast<float>(size.columns - 1));
+    const Node node = grid.sample(
+        map.w(std::clamp(angle, 0.0F, range)) * static_cast<float>(grid.rows() - 1),
+        folded_azimuth(azimuth_rad) * std::numbers::inv_pi_v<float> * static_cast<float>(size.columns - 1));
+    return {glm::vec3(node[0], node[1], node[2]), glm::vec3(node[4], node[5], node[6])};
+}
 
-    const float elevation = side == Side::kSky ? horizon + within : horizon - within;
+glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept {
+    const SkyParts seen = parts(side, elevation_rad, azimuth_rad);
+    if (seen.haze == glm::vec3(0.0F) && seen.rest == glm::vec3(0.0F)) return glm::vec3(0.0F);
+    const auto horizon = static_cast<float>(horizon_rad);
+    constexpr auto kQuarterTurn = static_cast<float>(kHalfPi);
+    const float elevation = side == Side::kSky ? std::clamp(elevation_rad, horizon, kQuarterTurn)
+                                               : std::clamp(elevation_rad, -kQuarterTurn, horizon);
     const float sine = std::sin(elevation);
     const float level = std::sqrt(std::max(0.0F, 1.0F - sine * sine));
-    const float cosine =
-        sine * static_cast<float>(source_sine) + level * static_cast<float>(source_cosine) * std::cos(around);
+    const float cosine = sine * static_cast<float>(source_sine) +
+                         level * static_cast<float>(source_cosine) * std::cos(folded_azimuth(azimuth_rad));
     const float phase =
         cornette_shanks_phase(static_cast<float>(air->model.aerosol_g), std::clamp(cosine, -1.0F, 1.0F));
-    return glm::max(glm::vec3(node[0], node[1], node[2]) + phase * glm::vec3(node[4], node[5], node[6]),
-                    glm::vec3(0.0F));
+    return glm::max(seen.rest + phase * seen.haze, glm::vec3(0.0F));
 }
 
 SkyView::SkyView(const SkyViewSize& size) {
@@ -306,18 +306,20 @@ bool SkyView::complete() const noexcept {
     return state_->air != nullptr && state_->rows_done == state_->size.sky_rows + state_->size.ground_rows;
 }
 
-glm::vec3 SkyView::xyz(float elevation_rad, float relative_azimuth_rad) const noexcept {
-    return elevation_rad >= static_cast<float>(state_->horizon_rad)
-               ? xyz_above(elevation_rad, relative_azimuth_rad)
-               : xyz_below(elevation_rad, relative_azimuth_rad);
-}
-
 glm::vec3 SkyView::xyz_above(float elevation_rad, float relative_azimuth_rad) const noexcept {
     return state_->look_up(Side::kSky, elevation_rad, relative_azimuth_rad);
 }
 
 glm::vec3 SkyView::xyz_below(float elevation_rad, float relative_azimuth_rad) const noexcept {
     return state_->look_up(Side::kGround, elevation_rad, relative_azimuth_rad);
+}
+
+SkyParts SkyView::parts_above(float elevation_rad, float relative_azimuth_rad) const noexcept {
+    return state_->parts(Side::kSky, elevation_rad, relative_azimuth_rad);
+}
+
+SkyParts SkyView::parts_below(float elevation_rad, float relative_azimuth_rad) const noexcept {
+    return state_->parts(Side::kGround, elevation_rad, relative_azimuth_rad);
 }
 
 double SkyView::horizon_elevation_rad() const noexcept {

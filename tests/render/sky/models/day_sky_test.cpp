@@ -1,0 +1,198 @@
+// Every model, asked as the renderer asks: finite, never by accident black, and without a step.
+#include "render/sky/models/day_sky.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <limits>
+
+#include "render/sky/air_tables.h"
+#include "tests/render/sky/truth.h"
+#include "tests/support/allocation_count.h"
+
+namespace skyig::render::sky::models {
+namespace {
+
+const AirTables& tables_for(SkyModel model) {
+    static const AirTables all(air_model({}));
+    static const AirTables first(air_model({}), Orders::kFirst);
+    return orders_of(model) == Orders::kAll ? all : first;
+}
+
+class EveryModel : public testing::TestWithParam<SkyModel> {
+  protected:
+    void make(DaySky& sky, double height_m, double source_deg) const {
+        sky.begin(settings_, tables_for(GetParam()), height_m, source_deg * kDeg, true);
+        sky.build_all();
+    }
+    SkySettings settings_{.model = GetParam()};
+};
+
+bool is_light(const glm::vec3& xyz) {
+    for (int k = 0; k < 3; ++k) {
+        if (!std::isfinite(xyz[k]) || xyz[k] < 0.0F) return false;
+    }
+    return true;
+}
+
+TEST_P(EveryModel, IsFiniteInHardCases) {
+    DaySky sky;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double height_m : {-430.0, 0.0, 2.0, 12e3, 100e3, 120e3, 400e3, 3.6e7, nan}) {
+        for (const double source_deg : {90.0, 30.0, 0.0, -0.3, -6.0, -18.0, -90.0, nan}) {
+            make(sky, height_m, source_deg);
+            const double horizon = sky.horizon_elevation_rad();
+            for (const double elevation : {90.0 * kDeg, source_deg * kDeg, 1e-6, 0.0, horizon, horizon - 1e-6,
+                                           -90.0 * kDeg, 1e30, nan}) {
+                for (const double azimuth : {0.0, 1e-7, 3.2, -9.0, 1e6, nan}) {
+                    const float e = f32(elevation);
+                    const float a = f32(azimuth);
+                    ASSERT_TRUE(is_light(sky.xyz_above(e, a)) && is_light(sky.xyz_below(e, a)))
+                        << height_m << ' ' << source_deg << ' ' << elevation << ' ' << azimuth;
+                }
+            }
+        }
+    }
+}
+
+TEST_P(EveryModel, IsLightByDayAndInTwilightAndDarkByNight) {
+    DaySky sky;
+    for (const double height_m : {2.0, 12e3}) {
+        for (const double source_deg : {90.0, 60.0, 20.0, 3.0, 0.0, -4.0}) {
+            make(sky, height_m, source_deg);
+            for (const double elevation_deg : {90.0, 45.0, 10.0, 1.0, 0.2}) {
+                const float y = sky.xyz(f32(elevation_deg * kDeg), 1.0F).y;
+                EXPECT_GT(y, source_deg < -1.0 ? 1e-3F : 0.5F) << height_m << ' ' << source_deg << ' ' << elevation_deg;
+                EXPECT_LT(y, 2e5F);
+            }
+            EXPECT_GT(sky.xyz(f32(-60.0 * kDeg), 1.0F).y, source_deg < -1.0 ? -1.0F : 0.5F);
+        }
+    }
+    make(sky, 2.0, -25.0);
+    EXPECT_LT(sky.xyz(0.5F, 1.0F).y, 1e-4F);
+}
+
+double largest_step(const DaySky& a, const DaySky& b, double move_rad = 0.0) {
+    double largest = 0.0;
+    for (const double from_horizon : {1.0, 0.3, 0.05, 0.003, -0.003, -0.05, -0.5}) {
+        for (const double azimuth : {0.3, 1.5, 3.1}) {
+            const auto y = [&](const DaySky& sky, double more) {
+                return static_cast<double>(
+                    sky.xyz(f32(sky.horizon_elevation_rad() + from_horizon + more), f32(azimuth)).y);
+            };
+            const double first = y(a, 0.0);
+            largest = std::max(largest, std::abs(y(b, move_rad) - first) / (first + 1e-3));
+        }
+    }
+    return largest;
+}
+
+TEST_P(EveryModel, HasNoStepOverTheSunsElevation) {
+    DaySky here;
+    DaySky there;
+    double largest = 0.0;
+    for (const double source_deg : {89.999, 45.0, 10.0, 9.999, 3.0, 0.0, -0.27, -1.0, -6.0, -12.0, -18.0, -89.99}) {
+        make(here, 100.0, source_deg);
+        make(there, 100.0, source_deg - 0.001);
+        largest = std::max(largest, largest_step(here, there));
+    }
+    std::printf("largest relative change for 0.001 deg of the Sun: %.4f\n", largest);
+    EXPECT_LT(largest, 0.01);
+}
+
+TEST_P(EveryModel, HasNoStepOverTheEyesHeight) {
+    DaySky here;
+    DaySky there;
+    double largest = 0.0;
+    for (const double height_m : {1.0, 1500.0, 20e3, 90e3, 119.9995e3, 200e3}) {
+        make(here, height_m, 20.0);
+        make(there, height_m + 1.0, 20.0);
+        largest = std::max(largest, largest_step(here, there));
+    }
+    std::printf("largest relative change for 1 m of height: %.5f\n", largest);
+    // From 1 m to 2 m the horizon, from which the directions are counted, sinks by 0.01 deg.
+    EXPECT_LT(largest, 0.01);
+}
+
+TEST_P(EveryModel, HasNoStepAcrossTheLevelOrTheZenith) {
+    DaySky sky;
+    double largest = 0.0;
+    for (const double height_m : {2.0, 3000.0}) {
+        for (const double source_deg : {50.0, 2.0, -5.0}) {
+            make(sky, height_m, source_deg);
+            for (const double azimuth : {0.5, 2.0}) {
+                for (const double elevation_deg : {0.0, 0.5729, 5.0, 89.9995}) {
+                    const auto y = [&](double at) {
+                        return static_cast<double>(sky.xyz_above(f32(at * kDeg), f32(azimuth)).y);
+                    };
+                    const double first = y(elevation_deg - 0.0005);
+                    largest = std::max(largest, std::abs(y(elevation_deg + 0.0005) / first - 1.0));
+                }
+            }
+        }
+    }
+    std::printf("largest relative change for 0.001 deg of elevation: %.5f\n", largest);
+    EXPECT_LT(largest, 0.01);
+}
+
+TEST_P(EveryModel, AllocatesOnlyInItsConstructor) {
+    const AirTables& tables = tables_for(GetParam());
+    DaySky sky;
+    DaySky other;
+    float sum = 0.0F;
+    const std::uint64_t before = skyig::tests::allocation_count();
+    for (const double source_rad : {0.5, 0.499, -0.05}) {
+        sky.begin(settings_, tables, 1000.0, source_rad, true);
+        while (!sky.build_rows(5)) {
+        }
+        std::swap(sky, other);
+        sum += other.xyz(0.3F, 0.4F).y + other.xyz(-0.3F, 0.4F).y;
+    }
+    EXPECT_EQ(skyig::tests::allocation_count(), before);
+    EXPECT_GT(sum, 0.0F);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, EveryModel,
+                         testing::Values(SkyModel::kMulti, SkyModel::kSingle, SkyModel::kDayCycle, SkyModel::kCie,
+                                         SkyModel::kPreetham, SkyModel::kWindlight),
+                         [](const auto& instance) { return std::string(name_of(instance.param)); });
+
+TEST(DaySky, CieTakesAMeasuredZenithFromTheSunAlone) {
+    SkySettings settings{.model = SkyModel::kCie};
+    settings.cie = {.type = 5, .zenith_luminance_cd_m2 = 7000.0};
+    const AirTables& tables = tables_for(SkyModel::kCie);
+    DaySky sky;
+    sky.begin(settings, tables, 0.0, 0.5, true);
+    EXPECT_NEAR(sky.xyz(1.5707F, 0.0F).y, 7000.0F, 1.0F);
+    EXPECT_NEAR(sky.xyz(0.2F, 2.0F).y, 7000.0F, 1.0F);  // type 5 is uniform
+    sky.begin(settings, tables, 0.0, 0.5, false);
+    const float of_multi = sky.xyz(1.5707F, 0.0F).y;
+    EXPECT_LT(of_multi, 6000.0F);
+    sky.begin(settings, tables, 0.0, -6.0 * kDeg, true);
+    EXPECT_LT(sky.xyz(1.5707F, 0.0F).y, 200.0F);
+    EXPECT_GT(sky.xyz(1.5707F, 0.0F).y, 1.0F);
+}
+
+TEST(DaySky, CieOvercastIsDarkerAtTheHorizonTowardsTheSunToo) {
+    SkySettings settings{.model = SkyModel::kCie};
+    settings.cie.type = 16;
+    DaySky sky;
+    sky.begin(settings, tables_for(SkyModel::kCie), 0.0, 0.5, true);
+    EXPECT_NEAR(sky.xyz(0.0F, 0.0F).y / sky.xyz(1.5707F, 0.0F).y, 1.0F / 3.0F, 1e-3F);
+}
+
+TEST(DaySky, EverySkyTypeOfTheStandardIsFinite) {
+    DaySky sky;
+    for (int type = 1; type <= 16; ++type) {
+        SkySettings settings{.model = SkyModel::kCie};
+        settings.cie.type = type;
+        for (const double source_rad : {1.5, 0.0, -0.3}) {
+            sky.begin(settings, tables_for(SkyModel::kCie), 0.0, source_rad, true);
+            for (const double elevation : steps(-1.5, 1.57, 0.1))
+                ASSERT_TRUE(is_light(sky.xyz(f32(elevation), 0.0F))) << type;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace skyig::render::sky::models
