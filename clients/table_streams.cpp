@@ -47,7 +47,8 @@ void TableStreams::finish() {
         throw std::runtime_error(fmt::format("{}: cannot be read", input_name_));
     output().flush();
     if (!output())
-        throw std::runtime_error(fmt::format("{}: cannot be written", to_file_ ? out_path_ : "standard output"));
+        throw std::runtime_error(
+            fmt::format("{}: cannot be written", to_file_ ? out_path_ : "standard output"));
 }
 
 }  // namespace skyig::clients

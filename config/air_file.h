@@ -1,4 +1,5 @@
-// A description of the air alone, for tools that need no site: [air] and [sky] as in a configuration, or [planet].
+// A description of the air alone, for tools that need no site: [air] and [sky] as in a configuration, or
+// [planet].
 #pragma once
 
 #include <optional>

@@ -45,8 +45,8 @@ struct Value {
     Place key_place;
 };
 
-/// A file's text; nothing and `error` filled when it cannot be read or is larger than 256 KiB, more than anyone
-/// writes by hand: a mistaken path (a device, a recording) is told at once.
+/// A file's text; nothing and `error` filled when it cannot be read or is larger than 256 KiB, more than
+/// anyone writes by hand: a mistaken path (a device, a recording) is told at once.
 [[nodiscard]] std::optional<std::string> read_settings_text(const std::string& path, ConfigError& error);
 
 /// Reads TOML. A line with more than 32 dots outside strings and comments is refused: its keys would nest

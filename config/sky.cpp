@@ -5,10 +5,12 @@
 namespace skyig::config {
 namespace {
 
-constexpr std::array<std::string_view, 6> kModelNames{"multi", "single", "daycycle", "cie", "preetham", "windlight"};
+constexpr std::array<std::string_view, 6> kModelNames{"multi", "single",   "daycycle",
+                                                      "cie",   "preetham", "windlight"};
 constexpr std::array<std::string_view, 2> kZenithNames{"printed", "multi"};
 
-void optional_number(TableReader& table, std::string_view key, std::optional<double>& out, const Range& range) {
+void optional_number(TableReader& table, std::string_view key, std::optional<double>& out,
+                     const Range& range) {
     double read = 0.0;
     if (table.number(key, read, range) != nullptr) out = read;
 }

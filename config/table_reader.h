@@ -50,7 +50,8 @@ class TableReader {
     const Value* text(std::string_view key, std::string& out);
     /// One of `names`; `out` becomes its index.
     const Value* choice(std::string_view key, std::size_t& out, std::span<const std::string_view> names);
-    /// A list of as many numbers as `out` holds, each in the range. \param wanted  what the list is, for errors
+    /// A list of as many numbers as `out` holds, each in the range. \param wanted  what the list is, for
+    /// errors
     const Value* numbers(std::string_view key, std::span<double> out, const Range& range,
                          std::string_view wanted);
     /// The table below this one; an error if the key holds something else.

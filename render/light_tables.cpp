@@ -92,9 +92,9 @@ void LightTables::update_view(View& view, const Wanted& wanted) {
     };
     // Beyond these steps the picture in use is wrong rather than late.
     const Made& latest = view.building ? view.back_made : view.front_made;
-    const bool lost =
-        latest.air == 0 || std::abs(latest.elevation_rad - wanted.elevation_rad) > 0.5 * kDegree ||
-        std::abs(latest.height_m - wanted.height_m) > 200.0 + 0.2 * std::abs(latest.height_m);
+    const bool lost = latest.air == 0 ||
+                      std::abs(latest.elevation_rad - wanted.elevation_rad) > 0.5 * kDegree ||
+                      std::abs(latest.height_m - wanted.height_m) > 200.0 + 0.2 * std::abs(latest.height_m);
     if (wanted.needed && lost) {
         begin();
         if (!wanted.matters) view.front_made.air = 0;
@@ -117,7 +117,8 @@ void LightTables::update(const Scene& scene, const Plan& plan) {
     const double sun_rad = horizontal_of(scene.sun.direction_enu).elevation_rad;
     const double moon_rad = horizontal_of(scene.moon.direction_enu).elevation_rad;
     update_view(sun_, {plan.needs(Pass::kSunSky), plan.sun_share > 0.0, true, sun_rad, scene.eye.height_m});
-    update_view(moon_, {plan.needs(Pass::kMoonSky), plan.moon_share > 0.0, false, moon_rad, scene.eye.height_m});
+    update_view(moon_,
+                {plan.needs(Pass::kMoonSky), plan.moon_share > 0.0, false, moon_rad, scene.eye.height_m});
 }
 
 SkyLight LightTables::light(const Scene& scene, const Plan& plan,

@@ -91,12 +91,12 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
                       smooth_step(-3.0 * kDegree, -6.0 * kDegree, sun_rad);
     // The Moon's table is begun before its light counts.
     const bool moon_lights = moon_rad - horizon_rad > -10.5 * kDegree && sun_rad < -2.0 * kDegree;
-    put(plan,
-        plan_sky(Pass::kSunSky, plan.sun_share > 0.0, held.sun_sky_valid, held.sun_sky_model, sun_rad, held.sun_sky_elevation_rad,
-                 sky::height_is_stale(scene.eye.height_m, held.sun_sky_height_m)));
-    put(plan,
-        plan_sky(Pass::kMoonSky, moon_lights, held.moon_sky_valid, held.moon_sky_model, moon_rad, held.moon_sky_elevation_rad,
-                 sky::height_is_stale(scene.eye.height_m, held.moon_sky_height_m)));
+    put(plan, plan_sky(Pass::kSunSky, plan.sun_share > 0.0, held.sun_sky_valid, held.sun_sky_model, sun_rad,
+                       held.sun_sky_elevation_rad,
+                       sky::height_is_stale(scene.eye.height_m, held.sun_sky_height_m)));
+    put(plan, plan_sky(Pass::kMoonSky, moon_lights, held.moon_sky_valid, held.moon_sky_model, moon_rad,
+                       held.moon_sky_elevation_rad,
+                       sky::height_is_stale(scene.eye.height_m, held.moon_sky_height_m)));
     put(plan, {Pass::kDome, true, "smooth light of all directions"});
     put(plan, {Pass::kStars, false, "not decided yet"});
     plan.corona_share = smooth_step(kCoronaBegins, kCoronaWhole, scene.sun.unobscured);

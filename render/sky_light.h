@@ -13,7 +13,7 @@ namespace skyig::render {
 /// A light source and the table of the air and ground it lights.
 struct LitAir {
     const sky::SkyRadiance* view = nullptr;  ///< null: this source lights nothing
-    Horizontal source;                   ///< where it stands in this frame; the table may lag by 0.01 deg
+    Horizontal source;                       ///< where it stands in this frame; the table may lag by 0.01 deg
     /// Factors on X, Y, Z of the table (distance, obscuration, the Moon's share and tint).
     glm::vec3 scale_xyz{0.0F};
 };

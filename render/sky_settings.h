@@ -62,8 +62,8 @@ struct WindlightSettings {
     double glow_power = -0.48;
     double horizon_drop = 0.0;
     double unit_cd_m2 = 30000.0;
-    /// The Sun stands where the two angles say: `sun_angle_rad` up from the horizon, along the half circle that
-    /// rises `east_angle_rad` clockwise of east and goes through the zenith.
+    /// The Sun stands where the two angles say: `sun_angle_rad` up from the horizon, along the half circle
+    /// that rises `east_angle_rad` clockwise of east and goes through the zenith.
     bool places_sun = false;
     double sun_angle_rad = 0.7;
     double east_angle_rad = 0.0;

@@ -95,11 +95,12 @@ render::SkyModel sky_model(config::SkyModel model) noexcept {
 }  // namespace
 
 render::SkySettings sky_settings(const config::Sky& sky) noexcept {
-    return {.model = sky_model(sky.model),
-            .day_cycle = {.desaturation = sky.day_cycle.desaturation},
-            .cie = {.type = sky.cie.type, .zenith_luminance_cd_m2 = sky.cie.zenith_luminance_cd_m2},
-            .preetham = {.turbidity = sky.preetham.turbidity, .zenith_of_multi = sky.preetham.zenith_of_multi},
-            .windlight = windlight_settings(sky.windlight)};
+    return {
+        .model = sky_model(sky.model),
+        .day_cycle = {.desaturation = sky.day_cycle.desaturation},
+        .cie = {.type = sky.cie.type, .zenith_luminance_cd_m2 = sky.cie.zenith_luminance_cd_m2},
+        .preetham = {.turbidity = sky.preetham.turbidity, .zenith_of_multi = sky.preetham.zenith_of_multi},
+        .windlight = windlight_settings(sky.windlight)};
 }
 
 render::Air air_settings(const config::Air& air) noexcept {

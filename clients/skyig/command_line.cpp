@@ -66,7 +66,8 @@ CLI::Validator finite_in(double lo, double hi) {
 }
 
 CLI::Validator sky_model_name() {
-    return CLI::IsMember(std::vector<std::string>(render::kSkyModelNames.begin(), render::kSkyModelNames.end()));
+    return CLI::IsMember(
+        std::vector<std::string>(render::kSkyModelNames.begin(), render::kSkyModelNames.end()));
 }
 
 void add_host(CLI::App& app, HostOptions& options, std::string& order) {
@@ -343,13 +344,16 @@ void add_sky(CLI::App& app, SkyOptions& options) {
     app.add_option("--cases", options.cases_path, "the table to fill in (CSV); - is standard input")
         ->required()
         ->type_name("FILE");
-    app.add_option("-o,--out", options.out_path, "where the filled table goes; - is standard output (so it is)")
+    app.add_option("-o,--out", options.out_path,
+                   "where the filled table goes; - is standard output (so it is)")
         ->type_name("FILE");
     app.footer(
         "The table needs altitude_m (above the model's ground), sun_zenith_deg, view_zenith_deg and "
         "rel_azimuth_deg (from the Sun's); every row keeps its columns and gets skyig_Y_cd_m2, skyig_x, "
-        "skyig_y (0, 0, 0 where it is black). Sun at 1 AU, no refraction. A TOML file holds [air] and [sky] as "
-        "in a configuration, or [planet] (docs/configuration.md). A bad row is told on stderr, its new columns "
+        "skyig_y (0, 0, 0 where it is black). Sun at 1 AU, no refraction. A TOML file holds [air] and [sky] "
+        "as "
+        "in a configuration, or [planet] (docs/configuration.md). A bad row is told on stderr, its new "
+        "columns "
         "stay empty, and the exit status is 1.");
 }
 
@@ -388,7 +392,8 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
                verbs.replay);
     add_record(*app.add_subcommand("record", "write down what comes to UDP ports and over CAN buses"),
                verbs.record);
-    add_sky(*app.add_subcommand("sky", "luminance and colour of the sky for a table of directions"), verbs.sky);
+    add_sky(*app.add_subcommand("sky", "luminance and colour of the sky for a table of directions"),
+            verbs.sky);
 }
 
 void require_one_body(const EphemOptions& options) {

@@ -112,8 +112,7 @@ int batch(const EphemOptions& options) {
         streams.input(), [&]() -> std::ostream& { return streams.open_output(); }, std::cerr,
         batch_settings(options, streams.input_name()));
     streams.finish();
-    if (streams.to_file())
-        fmt::print("{}  {} rows, {} bad\n", options.out_path, count.rows, count.bad_rows);
+    if (streams.to_file()) fmt::print("{}  {} rows, {} bad\n", options.out_path, count.rows, count.bad_rows);
     return count.bad_rows == 0 ? 0 : 1;
 }
 

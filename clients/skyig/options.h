@@ -148,7 +148,8 @@ struct RecordOptions {
 
 /// skyig sky: a table of directions gets the sky's light.
 struct SkyOptions {
-    /// Of render::kSkyModelNames, already checked; empty = the one that the atmosphere's file names, else multi.
+    /// Of render::kSkyModelNames, already checked; empty = the one that the atmosphere's file names, else
+    /// multi.
     std::string model;
     /// "A", "B" or a file.
     std::string atmosphere = "B";

@@ -128,17 +128,19 @@ bool operator==(const AirModel& a, const AirModel& b) noexcept {
            a.sunlight_xyz_lux == b.sunlight_xyz_lux;
 }
 
-double vertical_column_m(const DensityProfile& profile) noexcept {
+double column_above_m(const DensityProfile& profile, double height_m) noexcept {
     double sum = 0.0;
     for (std::size_t k = 0; k + 1 < profile.knot_count; ++k) {
-        const double low = std::exp(profile.log_density[k]);
-        const double high = std::exp(profile.log_density[k + 1]);
-        sum += (low - high) * (profile.height_m[k + 1] - profile.height_m[k]) /
-               (profile.log_density[k] - profile.log_density[k + 1]);
+        const bool last = k + 2 == profile.knot_count;
+        if (!last && profile.height_m[k + 1] <= height_m) continue;
+        const double scale_m = (profile.height_m[k + 1] - profile.height_m[k]) /
+                               (profile.log_density[k] - profile.log_density[k + 1]);
+        const double from_m = std::max(height_m, profile.height_m[k]);
+        const double low = std::exp(profile.log_density[k] - (from_m - profile.height_m[k]) / scale_m);
+        const double high = last ? 0.0 : std::exp(profile.log_density[k + 1]);
+        sum += scale_m * (low - high);
     }
-    const std::size_t last = profile.knot_count - 1;
-    return sum + std::exp(profile.log_density[last]) * (profile.height_m[last] - profile.height_m[last - 1]) /
-                     (profile.log_density[last - 1] - profile.log_density[last]);
+    return sum;
 }
 
 glm::dvec3 xyz_of_sunlight(const AirModel& model, const Spectrum& part) noexcept {
@@ -189,7 +191,7 @@ AirModel air_model(const Air& air) {
 
     AirModel model = with_sunlight(kSolarBins);
     model.molecules = standard_molecules();
-    const double per_m = pressure_hpa / 1013.25 / vertical_column_m(model.molecules);
+    const double per_m = pressure_hpa / 1013.25 / column_above_m(model.molecules, 0.0);
     model.rayleigh_per_m = spectrum_of([&](double nm) { return per_m * rayleigh_depth(nm); });
     model.ozone_peak_per_m = spectrum_of([](double nm) { return sample_at(kOzonePeak, nm); });
     model.ground_albedo = spectrum_of(ground_albedo);

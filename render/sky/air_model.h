@@ -26,9 +26,6 @@ struct DensityProfile {
     std::array<double, kMaxKnots> log_density{};
 };
 
-/// Metres of air of the density at height 0 that weigh as much as all of it: to infinity, the last slope going on.
-[[nodiscard]] double vertical_column_m(const DensityProfile& profile) noexcept;
-
 /// Spherical shell of molecules, aerosol and ozone over a Lambertian ground. Coefficients are per metre at
 /// height 0, except ozone's, which is at the peak of its triangular layer. No refraction, no polarisation.
 struct AirModel {
@@ -55,6 +52,10 @@ struct AirModel {
     friend bool operator==(const AirModel& a, const AirModel& b) noexcept;
 };
 
+/// Metres of air of the density at height 0 that weigh as much as all above `height_m`, the last slope going
+/// on.
+[[nodiscard]] double column_above_m(const DensityProfile& profile, double height_m) noexcept;
+
 /// XYZ of sunlight of which `part` is left over, wavelength by wavelength: cd/m2 for radiances per unit of
 /// solar irradiance, lux for transmittances. Not below 0.
 [[nodiscard]] glm::dvec3 xyz_of_sunlight(const AirModel& model, const Spectrum& part) noexcept;
@@ -80,25 +81,26 @@ inline constexpr double kMaxVisibilityM = 250.0e3;
 /// depends continuously on each number. Temperature and humidity do not enter.
 [[nodiscard]] AirModel air_model(const Air& air);
 
-/// Another planet's air, or a simple one of this: exponential molecules and dust, optics at 550 nm with simple
-/// spectra. The defaults are the Earth's.
+/// Another planet's air, or a simple one of this: exponential molecules and dust, optics at 550 nm with
+/// simple spectra. The defaults are the Earth's.
 struct PlanetAir {
-    double ground_radius_m = 6371.0e3;   ///< 1e5..1e8
-    double top_height_m = 120.0e3;       ///< 1e3..1e6
-    double molecule_height_m = 8000.0;   ///< scale height, 10..1e6
-    double rayleigh_per_m = 1.16e-5;     ///< at the ground, as the wavelength's -4th power; 0..0.01
-    double aerosol_height_m = 1200.0;    ///< scale height, 10..1e6
-    double aerosol_per_m = 2.0e-5;       ///< extinction at the ground; 0..0.01
-    double aerosol_angstrom = 1.2;       ///< its fall with wavelength, -2..4
-    double aerosol_albedo_blue = 0.94;   ///< single-scattering albedo at 440 nm, 0..1; linear between
-    double aerosol_albedo_red = 0.94;    ///< at 680 nm
-    double aerosol_g = 0.75;             ///< Cornette-Shanks, -0.95..0.95
-    double ozone_dobson = 300.0;         ///< 0..1000
-    double ground_albedo_blue = 0.08;    ///< at 440 nm, 0..1; linear between
-    double ground_albedo_red = 0.2;      ///< at 680 nm
+    double ground_radius_m = 6371.0e3;  ///< 1e5..1e8
+    double top_height_m = 120.0e3;      ///< 1e3..1e6
+    double molecule_height_m = 8000.0;  ///< scale height, 10..1e6
+    double rayleigh_per_m = 1.16e-5;    ///< at the ground, as the wavelength's -4th power; 0..0.01
+    double aerosol_height_m = 1200.0;   ///< scale height, 10..1e6
+    double aerosol_per_m = 2.0e-5;      ///< extinction at the ground; 0..0.01
+    double aerosol_angstrom = 1.2;      ///< its fall with wavelength, -2..4
+    double aerosol_albedo_blue = 0.94;  ///< single-scattering albedo at 440 nm, 0..1; linear between
+    double aerosol_albedo_red = 0.94;   ///< at 680 nm
+    double aerosol_g = 0.75;            ///< Cornette-Shanks, -0.95..0.95
+    double ozone_dobson = 300.0;        ///< 0..1000
+    double ground_albedo_blue = 0.08;   ///< at 440 nm, 0..1; linear between
+    double ground_albedo_red = 0.2;     ///< at 680 nm
 };
 
-/// Numbers out of range count as the nearest end, what is not finite as the default. Sunlight is that at 1 AU.
+/// Numbers out of range count as the nearest end, what is not finite as the default. Sunlight is that at 1
+/// AU.
 [[nodiscard]] AirModel planet_air(const PlanetAir& planet);
 
 }  // namespace skyig::render::sky

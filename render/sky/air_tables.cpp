@@ -93,7 +93,8 @@ glm::dvec3 AirTables::transmittance_rgb(double height_m, double elevation_rad) c
 
 glm::dvec3 AirTables::direct_sun_xyz(double height_m, double elevation_rad,
                                      double distance_au) const noexcept {
-    return xyz_of_sunlight(data_->model, transmittance(height_m, elevation_rad)) / (distance_au * distance_au);
+    return xyz_of_sunlight(data_->model, transmittance(height_m, elevation_rad)) /
+           (distance_au * distance_au);
 }
 
 glm::dvec3 AirTables::ground_diffuse_xyz(double source_elevation_rad) const noexcept {

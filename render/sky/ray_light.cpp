@@ -56,8 +56,8 @@ RayLight ray_light(const AirTables& tables, const RayQuery& query) noexcept {
     const double source = std::clamp(query.source_elevation_rad, -kHalfPi, kHalfPi);
     const Side side = elevation < -data.shell.dip_rad(eye_m) ? Side::kGround : Side::kSky;
     const double sine = std::sin(elevation);
-    const double between =
-        sine * std::sin(source) + std::cos(elevation) * std::cos(source) * std::cos(query.relative_azimuth_rad);
+    const double between = sine * std::sin(source) +
+                           std::cos(elevation) * std::cos(source) * std::cos(query.relative_azimuth_rad);
 
     std::array<PathStep, kSteps> steps;  // NOLINT: laid before it is read
     Path path{};

@@ -1,5 +1,5 @@
-// Light along one ray, without a table of directions: what the air does to an object at a finite distance, and
-// the exact value that the tables interpolate.
+// Light along one ray, without a table of directions: what the air does to an object at a finite distance,
+// and the exact value that the tables interpolate.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -20,8 +20,8 @@ struct RayQuery {
 };
 
 struct RayLight {
-    /// XYZ in cd/m2, source as the Sun at 1 AU: what the air sends into the ray and, where the ray reaches the
-    /// ground, the lit ground behind that air.
+    /// XYZ in cd/m2, source as the Sun at 1 AU: what the air sends into the ray and, where the ray reaches
+    /// the ground, the lit ground behind that air.
     glm::dvec3 xyz{0.0};
     /// Part of an object's own light that arrives, at the carried wavelengths. What the aerosol scatters by
     /// small angles counts as lost: sharp contrast is what visibility is about.

@@ -35,8 +35,7 @@ Atmosphere load_atmosphere(const std::string& name) {
         throw errors;
     }
     const config::AirFile& file = *read.file;
-    return {file.planet ? planet_model(*file.planet)
-                        : render::sky::air_model(server::air_settings(file.air)),
+    return {file.planet ? planet_model(*file.planet) : render::sky::air_model(server::air_settings(file.air)),
             server::sky_settings(file.sky)};
 }
 

@@ -20,7 +20,8 @@ struct AtmosphereErrors {
     std::vector<std::string> lines;
 };
 
-/// \param name  "A", "B" (the media of the truth tables), or a TOML file with [air] and [sky] as in a configuration
+/// \param name  "A", "B" (the media of the truth tables), or a TOML file with [air] and [sky] as in a
+/// configuration
 ///              or with [planet]
 /// \throws AtmosphereErrors
 [[nodiscard]] Atmosphere load_atmosphere(const std::string& name);

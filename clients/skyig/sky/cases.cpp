@@ -22,7 +22,8 @@ struct Limits {
     double least;
     double most;
 };
-constexpr std::array<Limits, kCaseColumns.size()> kLimits{{{0.0, 1e9}, {0.0, 180.0}, {0.0, 180.0}, {-1e6, 1e6}}};
+constexpr std::array<Limits, kCaseColumns.size()> kLimits{
+    {{0.0, 1e9}, {0.0, 180.0}, {0.0, 180.0}, {-1e6, 1e6}}};
 
 struct Row {
     std::string text;
@@ -47,7 +48,8 @@ Columns read_heading(const CsvRecord& heading) {
     if (heading.too_long || !heading.well_formed)
         throw std::runtime_error("the heading is too long, or a quote in it is not closed");
     for (const std::string_view name : kSkyColumns) {
-        if (find(heading.fields, name)) throw std::runtime_error(fmt::format("column '{}' is there already", name));
+        if (find(heading.fields, name))
+            throw std::runtime_error(fmt::format("column '{}' is there already", name));
     }
     Columns columns{};
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -93,7 +95,8 @@ class Table {
             if (record.too_long || !record.well_formed)
                 throw RowProblem{"", "the line is too long, or a quote in it is not closed"};
             if (record.fields.size() != width_)
-                throw RowProblem{"", fmt::format("{} fields where the heading has {}", record.fields.size(), width_)};
+                throw RowProblem{
+                    "", fmt::format("{} fields where the heading has {}", record.fields.size(), width_)};
             rows_.push_back({record.text, record.line_end, ",,,"});
             const Numbers numbers = read_row(record, columns_);
             groups_[{numbers[0], numbers[1]}].push_back({rows_.size() - 1, numbers[2], numbers[3]});
@@ -108,7 +111,8 @@ class Table {
         for (const auto& [place, directions] : groups_) {
             solver.begin(place.first, place.second);
             for (const Direction& direction : directions)
-                rows_[direction.row].added = columns_of(solver.xyz(direction.view_zenith_deg, direction.rel_azimuth_deg));
+                rows_[direction.row].added =
+                    columns_of(solver.xyz(direction.view_zenith_deg, direction.rel_azimuth_deg));
         }
         for (const Row& row : rows_)
             output << row.text << row.added << row.line_end;

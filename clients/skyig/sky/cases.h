@@ -1,4 +1,5 @@
-// Adds the light of the sky to a table: every row of a CSV file gets luminance and chromaticity of its direction.
+// Adds the light of the sky to a table: every row of a CSV file gets luminance and chromaticity of its
+// direction.
 #pragma once
 
 #include <array>
@@ -13,11 +14,12 @@
 namespace skyig::clients::sky {
 
 /// Columns that have to be there, in any order and case, and those that are appended.
-inline constexpr std::array<std::string_view, 4> kCaseColumns{"altitude_m", "sun_zenith_deg", "view_zenith_deg",
-                                                              "rel_azimuth_deg"};
+inline constexpr std::array<std::string_view, 4> kCaseColumns{"altitude_m", "sun_zenith_deg",
+                                                              "view_zenith_deg", "rel_azimuth_deg"};
 inline constexpr std::array<std::string_view, 3> kSkyColumns{"skyig_Y_cd_m2", "skyig_x", "skyig_y"};
 
-/// Answers the rows of one table. begin() is called once for each pair of altitude and Sun, before its directions.
+/// Answers the rows of one table. begin() is called once for each pair of altitude and Sun, before its
+/// directions.
 class Solver {
   public:
     virtual ~Solver() = default;
@@ -42,10 +44,10 @@ struct CaseCount {
 /// Called once, when the heading has turned out usable.
 using OpenOutput = std::function<std::ostream&()>;
 
-/// Reads `input` whole and writes it with kSkyColumns appended, in the same order; black has chromaticity 0, 0. Tells
-/// one line with name, line and column on `errors` for every row that is bad; such a row's new columns stay empty, and
-/// one with a wrong number of fields is left out. Lines with '#' and empty lines are left out.
-/// \throws std::runtime_error when the heading cannot be used or the input fails
+/// Reads `input` whole and writes it with kSkyColumns appended, in the same order; black has chromaticity 0,
+/// 0. Tells one line with name, line and column on `errors` for every row that is bad; such a row's new
+/// columns stay empty, and one with a wrong number of fields is left out. Lines with '#' and empty lines are
+/// left out. \throws std::runtime_error when the heading cannot be used or the input fails
 CaseCount run_cases(std::istream& input, const std::string& input_name, const OpenOutput& open_output,
                     std::ostream& errors, Solver& solver);
 

@@ -28,10 +28,11 @@ SKYIG_INLINE real windlight_lowered(real view_sine, Windlight w) {
     return up / sqrt(max(real(1.0) - view_sine * view_sine + up * up, real(1e-12)));
 }
 
-// From the eye to the dome: level at the ceiling above, deep down below the horizon.
+// From the eye to the dome: level at the ceiling above, deep down below the horizon, and never further than a hundred
+// ceilings, which is about where a layer on a round Earth ends.
 SKYIG_INLINE real windlight_length(real sine, Windlight w) {
-    if (sine >= real(0.0)) return w.ceiling_m / max(sine, real(1e-6));
-    return real(32000.0) / max(-sine, real(1e-6));
+    if (sine >= real(0.0)) return w.ceiling_m / max(sine, real(0.01));
+    return real(32000.0) / max(-sine, real(320.0) / w.ceiling_m);
 }
 
 // The path through the haze that sunlight has behind it; the quotient's divisor is rounded off near 0, where it would

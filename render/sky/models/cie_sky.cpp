@@ -19,7 +19,8 @@ double measured_luminance(double measured_cd_m2, const Surroundings& at, const A
     if (at.source_elevation_rad() >= 0.0) return measured_cd_m2;
     const Surroundings sunset(tables, eye_height_m, 0.0);
     const float whole = sunset.zenith_xyz().y;
-    return whole > 0.0F ? measured_cd_m2 * static_cast<double>(std::min(1.0F, at.zenith_xyz().y / whole)) : 0.0;
+    return whole > 0.0F ? measured_cd_m2 * static_cast<double>(std::min(1.0F, at.zenith_xyz().y / whole))
+                        : 0.0;
 }
 
 }  // namespace
@@ -42,8 +43,21 @@ shaders64::CieSky cie_coefficients(int type) noexcept {
     struct Groups {
         std::size_t gradation, indicatrix;
     };
-    constexpr std::array<Groups, 15> kTypes{{{0, 0}, {0, 1}, {1, 0}, {1, 1}, {2, 0}, {2, 1}, {2, 2}, {2, 3},
-                                             {3, 1}, {3, 2}, {3, 3}, {4, 3}, {4, 4}, {5, 4}, {5, 5}}};
+    constexpr std::array<Groups, 15> kTypes{{{0, 0},
+                                             {0, 1},
+                                             {1, 0},
+                                             {1, 1},
+                                             {2, 0},
+                                             {2, 1},
+                                             {2, 2},
+                                             {2, 3},
+                                             {3, 1},
+                                             {3, 2},
+                                             {3, 3},
+                                             {4, 3},
+                                             {4, 4},
+                                             {5, 4},
+                                             {5, 5}}};
     const Groups& groups = kTypes[static_cast<std::size_t>(std::clamp(type, 1, 15) - 1)];
     const Gradation& g = kGradations[groups.gradation];
     const Indicatrix& f = kIndicatrices[groups.indicatrix];
@@ -72,11 +86,11 @@ glm::vec3 CieSky::xyz_above(float elevation_rad, float relative_azimuth_rad) con
     if (!std::isfinite(elevation_rad) || !std::isfinite(relative_azimuth_rad)) return glm::vec3(0.0F);
     const float elevation = clamped_above(at_, elevation_rad);
     const float sine = std::sin(elevation);
-    const float sun_angle = shaders32::angle_between(elevation, static_cast<float>(at_.source_elevation_rad()),
-                                                     folded_azimuth(relative_azimuth_rad));
-    const float relative = overcast_ ? shaders32::cie_overcast(sine)
-                                     : shaders32::cie_indicatrix(sun_angle, sky_) *
-                                           shaders32::cie_gradation(sine, sky_);
+    const float sun_angle = shaders32::angle_between(
+        elevation, static_cast<float>(at_.source_elevation_rad()), folded_azimuth(relative_azimuth_rad));
+    const float relative =
+        overcast_ ? shaders32::cie_overcast(sine)
+                  : shaders32::cie_indicatrix(sun_angle, sky_) * shaders32::cie_gradation(sine, sky_);
     return colour_.xyz(scale_ * relative, sine, sun_angle);
 }
 

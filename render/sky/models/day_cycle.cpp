@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "render/sky/air_data.h"
 #include "render/sky/azimuth.h"
 #include "render/sky/phase.h"
 #include "render/sky/staleness.h"
@@ -16,6 +17,7 @@ constexpr double kHalfPi = 0.5 * std::numbers::pi;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kAirMassStep = 1.0;
 constexpr double kWidestStepDeg = 4.0;
+constexpr double kFarthestEyeM = 1e9;
 
 // Kasten and Young, Appl. Opt. 28 (1989) 4735; below the horizon along the tangent at 0.
 double air_mass(double elevation_deg) {
@@ -29,28 +31,28 @@ double air_mass(double elevation_deg) {
 
 }  // namespace
 
-double day_path_place(double elevation_rad) noexcept {
+double day_path_place(double elevation_rad, double dip_rad) noexcept {
     const double elevation_deg = elevation_rad / kDegree;
-    return air_mass(elevation_deg) / kAirMassStep + (90.0 - elevation_deg) / kWidestStepDeg;
+    return air_mass(elevation_deg - dip_rad / kDegree) / kAirMassStep +
+           (90.0 - elevation_deg) / kWidestStepDeg;
 }
 
-double day_path_elevation_rad(double place) noexcept {
+double day_path_elevation_rad(double place, double dip_rad) noexcept {
     double low = -kHalfPi;
     double high = kHalfPi;
     for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
-        (day_path_place(middle) > place ? low : high) = middle;
+        (day_path_place(middle, dip_rad) > place ? low : high) = middle;
     }
     return 0.5 * (low + high);
 }
 
-void DayCycle::renew(Place& place, int number, const AirTables& tables, double eye_height_m) noexcept {
-    const bool fresh = place.air == &tables.data() && place.number == number &&
-                       !height_is_stale(eye_height_m, place.view.eye_height_m());
-    if (fresh) return;
-    place.view.begin(tables, eye_height_m, day_path_elevation_rad(number));
-    place.air = &tables.data();
+void DayCycle::renew(Place& place, int number, const AirTables& tables) noexcept {
+    if (place.made && place.number == number) return;
+    const double dip_rad = tables.data().shell.dip_rad(height_m_);
+    place.view.begin(tables, height_m_, day_path_elevation_rad(number, dip_rad));
     place.number = number;
+    place.made = true;
     ++tables_begun_;
 }
 
@@ -58,11 +60,17 @@ void DayCycle::begin(const DayCycleSettings& settings, const AirTables& tables, 
                      double source_elevation_rad) noexcept {
     const double elevation =
         std::isfinite(source_elevation_rad) ? std::clamp(source_elevation_rad, -kHalfPi, kHalfPi) : -kHalfPi;
-    const double place = day_path_place(elevation);
+    const double height_m = std::isfinite(eye_height_m) ? std::clamp(eye_height_m, 0.0, kFarthestEyeM) : 0.0;
+    if (air_ != &tables.data() || height_is_stale(height_m, height_m_)) {
+        air_ = &tables.data();
+        height_m_ = height_m;
+        before_.made = after_.made = false;
+    }
+    const double place = day_path_place(elevation, tables.data().shell.dip_rad(height_m_));
     const int number = static_cast<int>(std::floor(place));
     if (number == after_.number || number + 1 == before_.number) std::swap(before_, after_);
-    renew(before_, number, tables, eye_height_m);
-    renew(after_, number + 1, tables, eye_height_m);
+    renew(before_, number, tables);
+    renew(after_, number + 1, tables);
     after_share_ = static_cast<float>(place - number);
     g_ = static_cast<float>(tables.model().aerosol_g);
     source_sine_ = static_cast<float>(std::sin(elevation));
@@ -80,28 +88,26 @@ glm::vec3 DayCycle::mixed(const SkyParts& before, const SkyParts& after, float e
     const glm::vec3 rest = before.rest + after_share_ * (after.rest - before.rest);
     const glm::vec3 haze = before.haze + after_share_ * (after.haze - before.haze);
     if (rest == glm::vec3(0.0F) && haze == glm::vec3(0.0F)) return glm::vec3(0.0F);
-    const float cosine = std::sin(elevation_rad) * source_sine_ +
-                         std::cos(elevation_rad) * source_cosine_ * std::cos(folded_azimuth(relative_azimuth_rad));
+    const float cosine =
+        std::sin(elevation_rad) * source_sine_ +
+        std::cos(elevation_rad) * source_cosine_ * std::cos(folded_azimuth(relative_azimuth_rad));
     const float phase = cornette_shanks_phase(g_, std::clamp(cosine, -1.0F, 1.0F));
     const glm::vec3 xyz = glm::max(rest + phase * haze, glm::vec3(0.0F));
     const glm::vec3 grey = xyz.y * glm::vec3(0.95047F, 1.0F, 1.08883F);
     return xyz + desaturation_ * (grey - xyz);
 }
 
-// A table made a little lower or higher is asked at the same angle from its own horizon.
 glm::vec3 DayCycle::xyz_above(float elevation_rad, float relative_azimuth_rad) const noexcept {
-    const auto shift = static_cast<float>(after_.view.horizon_elevation_rad() - horizon_elevation_rad());
     const float elevation = std::max(elevation_rad, static_cast<float>(horizon_elevation_rad()));
     return mixed(before_.view.parts_above(elevation_rad, relative_azimuth_rad),
-                 after_.view.parts_above(elevation_rad + shift, relative_azimuth_rad), elevation,
+                 after_.view.parts_above(elevation_rad, relative_azimuth_rad), elevation,
                  relative_azimuth_rad);
 }
 
 glm::vec3 DayCycle::xyz_below(float elevation_rad, float relative_azimuth_rad) const noexcept {
-    const auto shift = static_cast<float>(after_.view.horizon_elevation_rad() - horizon_elevation_rad());
     const float elevation = std::min(elevation_rad, static_cast<float>(horizon_elevation_rad()));
     return mixed(before_.view.parts_below(elevation_rad, relative_azimuth_rad),
-                 after_.view.parts_below(elevation_rad + shift, relative_azimuth_rad), elevation,
+                 after_.view.parts_below(elevation_rad, relative_azimuth_rad), elevation,
                  relative_azimuth_rad);
 }
 

@@ -16,8 +16,9 @@ namespace models {
 /// Which tables of the air a model needs.
 [[nodiscard]] Orders orders_of(SkyModel model) noexcept;
 
-/// begin() and build_rows() spread one build over frames; look-ups are answered once build_rows() has returned true
-/// and do not depend on how the build was sliced. Only the constructor allocates. Double buffering is the caller's.
+/// begin() and build_rows() spread one build over frames; look-ups are answered once build_rows() has
+/// returned true and do not depend on how the build was sliced. Only the constructor allocates. Double
+/// buffering is the caller's.
 class DaySky final : public SkyRadiance {
   public:
     DaySky();
@@ -36,8 +37,10 @@ class DaySky final : public SkyRadiance {
     bool build_rows(int max_rows) noexcept;
     void build_all() noexcept;
 
-    [[nodiscard]] glm::vec3 xyz_above(float elevation_rad, float relative_azimuth_rad) const noexcept override;
-    [[nodiscard]] glm::vec3 xyz_below(float elevation_rad, float relative_azimuth_rad) const noexcept override;
+    [[nodiscard]] glm::vec3 xyz_above(float elevation_rad,
+                                      float relative_azimuth_rad) const noexcept override;
+    [[nodiscard]] glm::vec3 xyz_below(float elevation_rad,
+                                      float relative_azimuth_rad) const noexcept override;
     [[nodiscard]] double horizon_elevation_rad() const noexcept override;
 
   private:

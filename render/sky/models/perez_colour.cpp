@@ -7,7 +7,8 @@ namespace skyig::render::sky::models {
 
 double turbidity_of(const AirModel& model) noexcept {
     constexpr std::size_t kGreen = 8;
-    const double molecules = static_cast<double>(model.rayleigh_per_m[kGreen]) * vertical_column_m(model.molecules);
+    const double molecules =
+        static_cast<double>(model.rayleigh_per_m[kGreen]) * column_above_m(model.molecules, 0.0);
     const double haze =
         static_cast<double>(model.aerosol_extinction_per_m[kGreen]) * model.aerosol_scale_height_m;
     if (!(molecules > 0.0)) return kMostTurbidity;

@@ -12,12 +12,13 @@ namespace skyig::render::sky::models {
 inline constexpr double kLeastTurbidity = 2.0;
 inline constexpr double kMostTurbidity = 10.0;
 
-/// The formulas hold for a Sun above the horizon: theirs stays at this elevation, and twilight fades their light.
+/// The formulas hold for a Sun above the horizon: theirs stays at this elevation, and twilight fades their
+/// light.
 inline constexpr double kLowestFormulaSun_rad = glm::radians(3.0);
 
-/// Turbidity as its authors define it, (molecules + haze) / molecules in vertical optical depth, here at 550 nm;
-/// brought into the range of the fit. For the scene's air the depths follow from visibility, pressure and the
-/// scale heights (air_model()): 23 km give 2.6, 10 km 4.7, 5 km 8.6.
+/// Turbidity as its authors define it, (molecules + haze) / molecules in vertical optical depth, here at 558
+/// nm; brought into the range of the fit. For the scene's air the depths follow from visibility, pressure and
+/// the scale heights (air_model()): 23 km give 2.5, 10 km 4.7, 5 km 8.6.
 [[nodiscard]] double turbidity_of(const AirModel& model) noexcept;
 
 /// x and y relative to the zenith, times a zenith that may come from elsewhere.

@@ -31,8 +31,8 @@ glm::vec3 PreethamSky::xyz_above(float elevation_rad, float relative_azimuth_rad
     if (!std::isfinite(elevation_rad) || !std::isfinite(relative_azimuth_rad)) return glm::vec3(0.0F);
     const float elevation = clamped_above(at_, elevation_rad);
     const float sine = std::sin(elevation);
-    const float sun_angle = shaders32::angle_between(elevation, static_cast<float>(at_.source_elevation_rad()),
-                                                     folded_azimuth(relative_azimuth_rad));
+    const float sun_angle = shaders32::angle_between(
+        elevation, static_cast<float>(at_.source_elevation_rad()), folded_azimuth(relative_azimuth_rad));
     return colour_.xyz(scale_ * shaders32::perez(sine, sun_angle, sky_), sine, sun_angle);
 }
 

@@ -1,5 +1,5 @@
-// What the closed formulas take from the air around the eye: they know the sky of an eye on the ground by day, and
-// this is how they go on beyond it.
+// What the closed formulas take from the air around the eye: they know the sky of an eye on the ground by
+// day, and this is how they go on beyond it.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -19,19 +19,21 @@ class Surroundings {
     [[nodiscard]] double horizon_elevation_rad() const noexcept { return horizon_rad_; }
     [[nodiscard]] double source_elevation_rad() const noexcept { return source_elevation_rad_; }
 
-    /// XYZ straight up as `multi` has it: from full day to the end of twilight, dark where no air is left above.
+    /// XYZ straight up as `multi` has it: from full day to the end of twilight, dark where no air is left
+    /// above.
     [[nodiscard]] const glm::vec3& zenith_xyz() const noexcept { return zenith_xyz_; }
     /// XYZ of the lit ground under the eye, a Lambert surface of the air's albedo, without air before it.
     [[nodiscard]] const glm::vec3& ground_xyz() const noexcept { return ground_xyz_; }
 
-    /// Part of the air's vertical optical depth (550 nm) that is above the eye: 1 on the ground, 0 at the lid.
+    /// Part of the air's vertical optical depth (558 nm) that is above the eye: 1 on the ground, 0 at the
+    /// lid.
     [[nodiscard]] double air_above() const noexcept { return air_above_; }
 
-    /// How twilight fades what a formula says of a low Sun: diffuse illuminance of the ground over that with the
-    /// source at `last_rad`, and 1 above that elevation. `tables` as at construction.
+    /// How twilight fades what a formula says of a low Sun: diffuse illuminance of the ground over that with
+    /// the source at `last_rad`, and 1 above that elevation. `tables` as at construction.
     [[nodiscard]] double fade_below(const AirTables& tables, double last_rad) const noexcept;
 
-    /// Distance to the ground, and the part of its light (550 nm) that the air between leaves over.
+    /// Distance to the ground, and the part of its light (558 nm) that the air between leaves over.
     [[nodiscard]] double ground_distance_m(float elevation_rad) const noexcept;
     [[nodiscard]] float ground_share(float elevation_rad) const noexcept;
 

@@ -34,9 +34,11 @@ void WindlightSky::begin(const WindlightSettings& settings, const AirTables& tab
 
 WindlightBetween WindlightSky::between(float elevation_rad, float relative_azimuth_rad,
                                        float distance_m) const noexcept {
-    if (!std::isfinite(elevation_rad) || !std::isfinite(relative_azimuth_rad) || std::isnan(distance_m)) return {};
+    if (!std::isfinite(elevation_rad) || !std::isfinite(relative_azimuth_rad) || std::isnan(distance_m))
+        return {};
     const auto sun = static_cast<float>(at_.source_elevation_rad());
-    const float sun_angle = shaders32::angle_between(elevation_rad, sun, folded_azimuth(relative_azimuth_rad));
+    const float sun_angle =
+        shaders32::angle_between(elevation_rad, sun, folded_azimuth(relative_azimuth_rad));
     const shaders32::WindlightAir air = shaders32::windlight_air(
         std::sin(elevation_rad), std::sin(sun), sun_angle, std::max(distance_m, 0.0F), haze_);
     return {air.passed, xyz_from_rec709(air.added * unit_cd_m2_)};
@@ -44,7 +46,8 @@ WindlightBetween WindlightSky::between(float elevation_rad, float relative_azimu
 
 glm::vec3 WindlightSky::xyz_above(float elevation_rad, float relative_azimuth_rad) const noexcept {
     if (!std::isfinite(elevation_rad)) return glm::vec3(0.0F);
-    return between(clamped_above(at_, elevation_rad), relative_azimuth_rad, std::numeric_limits<float>::infinity())
+    return between(clamped_above(at_, elevation_rad), relative_azimuth_rad,
+                   std::numeric_limits<float>::infinity())
         .added_xyz;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "render/sky/air_data.h"
 #include "tests/render/sky/truth.h"
 
 namespace skyig::render::sky::models {
@@ -15,15 +16,22 @@ const AirTables& first_order() {
     return tables;
 }
 
+double dip_rad(double height_m) {
+    return first_order().data().shell.dip_rad(height_m);
+}
+
 TEST(DayPath, PlacesAndElevationsAreInverse) {
-    for (const double elevation_deg : {89.9, 60.0, 10.0, 0.001, 0.0, -0.001, -5.0, -18.0, -89.0}) {
-        const double place = day_path_place(elevation_deg * kDeg);
-        EXPECT_NEAR(day_path_elevation_rad(place), elevation_deg * kDeg, 1e-12) << elevation_deg;
-        EXPECT_GT(day_path_place((elevation_deg - 0.001) * kDeg), place);
+    for (const double dip : {0.0, 0.35}) {
+        for (const double elevation_deg : {89.9, 60.0, 10.0, 0.001, 0.0, -0.001, -5.0, -18.0, -89.0}) {
+            const double place = day_path_place(elevation_deg * kDeg, dip);
+            EXPECT_NEAR(day_path_elevation_rad(place, dip), elevation_deg * kDeg, 1e-12) << elevation_deg;
+            EXPECT_GT(day_path_place((elevation_deg - 0.001) * kDeg, dip), place);
+        }
     }
 }
 
-// Away from the Sun in deep twilight nothing is left that the eye could tell from the night: 1e-4 of the brightest.
+// Away from the Sun in deep twilight nothing is left that the eye could tell from the night: 1e-4 of the
+// brightest.
 void compare(const DayCycle& cycle, const SkyView& exact, Errors& errors) {
     const double horizon = exact.horizon_elevation_rad();
     double brightest = 0.0;
@@ -32,9 +40,13 @@ void compare(const DayCycle& cycle, const SkyView& exact, Errors& errors) {
     for (const double above : powers(0.002, 1.4, 1.6)) {
         for (const double azimuth_deg : {0.0, 20.0, 70.0, 120.0, 180.0}) {
             const float azimuth = f32(azimuth_deg * kDeg);
-            const auto add = [&](double made, double wanted) { errors.add((made - wanted) / (wanted + 1e-3 * brightest)); };
-            add(cycle.xyz_above(f32(horizon + above), azimuth).y, exact.xyz_above(f32(horizon + above), azimuth).y);
-            add(cycle.xyz_below(f32(horizon - above), azimuth).y, exact.xyz_below(f32(horizon - above), azimuth).y);
+            const auto add = [&](double made, double wanted) {
+                errors.add((made - wanted) / (wanted + 1e-3 * brightest));
+            };
+            add(cycle.xyz_above(f32(horizon + above), azimuth).y,
+                exact.xyz_above(f32(horizon + above), azimuth).y);
+            add(cycle.xyz_below(f32(horizon - above), azimuth).y,
+                exact.xyz_below(f32(horizon - above), azimuth).y);
         }
     }
 }
@@ -43,20 +55,19 @@ TEST(DayCycle, MidwayBetweenItsTablesItIsWithinOnePercentOfSingle) {
     DayCycle cycle;
     SkyView exact;
     double worst = 0.0;
-    for (const double height_m : {2.0, 10e3}) {
+    for (const double height_m : {2.0, 10e3, 400e3}) {
         for (const double near_deg : {88.0, 60.0, 40.0, 20.0, 8.0, 3.0, 0.5, -0.5, -2.0, -4.0, -6.0}) {
-            const double place = std::floor(day_path_place(near_deg * kDeg)) + 0.5;
-            const double elevation = day_path_elevation_rad(place);
+            const double place = std::floor(day_path_place(near_deg * kDeg, dip_rad(height_m))) + 0.5;
+            const double elevation = day_path_elevation_rad(place, dip_rad(height_m));
             cycle.begin({}, first_order(), height_m, elevation);
-            cycle.build_rows(1000);
             while (!cycle.build_rows(1000)) {
             }
             exact.begin(first_order(), height_m, elevation);
             exact.build_all();
             Errors errors;
             compare(cycle, exact, errors);
-            std::printf("eye %5.0f m, Sun %6.2f deg: rms %.2f %%, largest %.2f %%\n", height_m, elevation / kDeg,
-                        100.0 * errors.rms(), 100.0 * errors.largest());
+            std::printf("eye %5.0f m, Sun %6.2f deg: rms %.2f %%, largest %.2f %%\n", height_m,
+                        elevation / kDeg, 100.0 * errors.rms(), 100.0 * errors.largest());
             worst = std::max(worst, errors.rms());
             EXPECT_LT(errors.rms(), 0.01) << near_deg;
         }
@@ -66,7 +77,7 @@ TEST(DayCycle, MidwayBetweenItsTablesItIsWithinOnePercentOfSingle) {
 TEST(DayCycle, OnATableItIsSingle) {
     DayCycle cycle;
     SkyView exact;
-    const double elevation = day_path_elevation_rad(30.0);
+    const double elevation = day_path_elevation_rad(30.0, dip_rad(500.0));
     cycle.begin({}, first_order(), 500.0, elevation);
     while (!cycle.build_rows(1000)) {
     }
@@ -78,8 +89,8 @@ TEST(DayCycle, OnATableItIsSingle) {
 
 TEST(DayCycle, BuildsOneTableForEachPlaceThatTheSunPasses) {
     DayCycle cycle;
-    const double from = day_path_elevation_rad(20.2);
-    const double to = day_path_elevation_rad(25.7);
+    const double from = day_path_elevation_rad(20.2, dip_rad(500.0));
+    const double to = day_path_elevation_rad(25.7, dip_rad(500.0));
     int frames = 0;
     for (double elevation = from; elevation > to; elevation -= 0.002 * kDeg, ++frames) {
         cycle.begin({}, first_order(), 500.0, elevation);
@@ -89,12 +100,12 @@ TEST(DayCycle, BuildsOneTableForEachPlaceThatTheSunPasses) {
     std::printf("%d frames, %d tables\n", frames, cycle.tables_begun());
     EXPECT_EQ(cycle.tables_begun(), 2 + 5);
     // And back again: the Sun rises.
-    cycle.begin({}, first_order(), 500.0, day_path_elevation_rad(24.9));
+    cycle.begin({}, first_order(), 500.0, day_path_elevation_rad(24.9, dip_rad(500.0)));
     EXPECT_EQ(cycle.tables_begun(), 2 + 5 + 1);
     // A little higher the tables still serve; much higher they do not.
-    cycle.begin({}, first_order(), 501.0, day_path_elevation_rad(24.9));
+    cycle.begin({}, first_order(), 501.0, day_path_elevation_rad(24.9, dip_rad(500.0)));
     EXPECT_EQ(cycle.tables_begun(), 8);
-    cycle.begin({}, first_order(), 600.0, day_path_elevation_rad(24.9));
+    cycle.begin({}, first_order(), 600.0, day_path_elevation_rad(24.9, dip_rad(500.0)));
     EXPECT_EQ(cycle.tables_begun(), 10);
 }
 

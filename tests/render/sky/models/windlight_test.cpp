@@ -34,8 +34,8 @@ constexpr double kFar = 1e12;
 double printed_added(const shaders64::Windlight& w, int i, double sine, double sun_sine, double sun_angle) {
     const double density = w.blue_density[i] + w.haze_density;
     const double length_m = w.ceiling_m / sine;
-    const double sun = w.sunlight[i] * std::exp(-(w.blue_density[i] + 0.25 * w.haze_density) * w.per_m * w.ceiling_m /
-                                                (sine + sun_sine));
+    const double sun = w.sunlight[i] * std::exp(-(w.blue_density[i] + 0.25 * w.haze_density) * w.per_m *
+                                                w.ceiling_m / (sine + sun_sine));
     const double glow = std::pow((1.0 - std::cos(sun_angle)) * w.glow_size, w.glow_power) + 0.25;
     const double limit = w.blue_horizon[i] * (w.blue_density[i] / density) * (sun + w.ambient[i]) +
                          w.haze_horizon * (w.haze_density / density) * (sun * glow + w.ambient[i]);
@@ -48,7 +48,8 @@ TEST(Windlight, IsTheFormulaWhereNothingIsRoundedOff) {
         for (const double angle : {0.2, 1.0, 2.5}) {
             const auto air = shaders64::windlight_air(sine, 0.6, angle, kFar, kLook);
             for (int i = 0; i < 3; ++i)
-                largest = std::max(largest, std::abs(air.added[i] / printed_added(kLook, i, sine, 0.6, angle) - 1.0));
+                largest = std::max(largest,
+                                   std::abs(air.added[i] / printed_added(kLook, i, sine, 0.6, angle) - 1.0));
         }
     }
     std::printf("largest difference %.1e\n", largest);
