@@ -36,9 +36,9 @@ struct WindlightSky {
     double haze_horizon = 0.19;
     /// Relative; the optical density per metre is these times `density_per_m`.
     std::array<double, 3> blue_density{0.25, 0.45, 0.76};
-    double haze_density = 0.7;
-    double density_per_m = 1.8e-4;
-    double max_altitude_m = 1600.0;
+    double haze_density = 0.35;
+    double density_per_m = 1e-4;
+    double max_altitude_m = 4000.0;
     std::array<double, 3> sunlight{0.73, 0.78, 0.9};
     std::array<double, 3> ambient{0.35, 0.35, 0.35};
     double glow_size = 5.0;

@@ -51,9 +51,9 @@ struct WindlightSettings {
     glm::dvec3 blue_horizon{0.5, 0.5, 0.64};
     double haze_horizon = 0.19;
     glm::dvec3 blue_density{0.25, 0.45, 0.76};
-    double haze_density = 0.7;
-    double density_per_m = 1.8e-4;
-    double max_altitude_m = 1600.0;
+    double haze_density = 0.35;
+    double density_per_m = 1e-4;
+    double max_altitude_m = 4000.0;
     glm::dvec3 sunlight{0.73, 0.78, 0.9};
     glm::dvec3 ambient{0.35, 0.35, 0.35};
     /// Glow = (max(1 - cos, floor) * size)^power + 0.25

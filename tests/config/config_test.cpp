@@ -100,10 +100,15 @@ east_angle_deg = -20
     EXPECT_EQ(look.blue_density, (std::array{0.5, 0.6, 0.7}));
     EXPECT_EQ(look.sunlight, (std::array{1.0, 2.0, 3.0}));
     EXPECT_EQ(look.ambient, (std::array{4.0, 5.0, 6.0}));
-    EXPECT_EQ(look.haze_horizon + look.haze_density, 1.2);
-    EXPECT_EQ(look.density_per_m * look.max_altitude_m, 2.0);
-    EXPECT_EQ(look.glow_size * look.glow_floor * look.glow_power, 7.0 * 0.01 * -0.9);
-    EXPECT_EQ(look.horizon_drop * look.unit_cd_m2, 1200.0);
+    EXPECT_EQ(look.haze_horizon, 0.4);
+    EXPECT_EQ(look.haze_density, 0.8);
+    EXPECT_EQ(look.density_per_m, 1e-3);
+    EXPECT_EQ(look.max_altitude_m, 2000.0);
+    EXPECT_EQ(look.glow_size, 7.0);
+    EXPECT_EQ(look.glow_floor, 0.01);
+    EXPECT_EQ(look.glow_power, -0.9);
+    EXPECT_EQ(look.horizon_drop, 0.1);
+    EXPECT_EQ(look.unit_cd_m2, 12000.0);
     EXPECT_EQ(look.sun_angle_deg, 33.0);
     EXPECT_EQ(look.east_angle_deg, -20.0);
 }
@@ -112,7 +117,8 @@ TEST(Config, TellsWhatIsWrongInTheSkysTables) {
     EXPECT_THAT(error_of(with("[sky]\nmodel = \"mutli\"")).message, HasSubstr("did you mean \"multi\"?"));
     EXPECT_EQ(error_of(with("[sky.cie]\ntype = 17")).key, "sky.cie.type");
     EXPECT_THAT(error_of(with("[sky]\ncie = 3")).message, HasSubstr("it must be a table: [sky.cie]"));
-    EXPECT_THAT(error_of(with("[sky.windlight]\nsunlight = [1, 2]")).message, HasSubstr("[red, green, blue]"));
+    EXPECT_THAT(error_of(with("[sky.windlight]\nsunlight = [1, 2]")).message,
+                HasSubstr("[red, green, blue]"));
     EXPECT_THAT(error_of(with("[sky.windlight]\nsunlight = [1, 2, -1]")).message, HasSubstr("0..10"));
     EXPECT_THAT(error_of(with("[sky.windlite]")).message, HasSubstr("did you mean \"windlight\"?"));
     EXPECT_THAT(error_of(with("[sky.preetham]\nturbidity = 1.5")).message, HasSubstr("2..10"));

@@ -39,7 +39,7 @@ SKYIG_INLINE real windlight_length(real sine, Windlight w) {
 // cut the light off at a hard edge.
 SKYIG_INLINE rvec3 windlight_sunlight(real sine, real sun_sine, Windlight w) {
     real slope = max(sine, real(0.0)) + sun_sine;
-    slope = real(0.5) * (slope + sqrt(slope * slope + real(4e-4)));
+    slope = real(0.5) * (slope + sqrt(slope * slope + real(3.6e-3)));
     rvec3 depth = (w.blue_density + rvec3(real(0.25) * w.haze_density)) * (w.per_m * w.ceiling_m);
     return w.sunlight * exp(-depth / slope);
 }

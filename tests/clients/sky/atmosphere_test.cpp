@@ -49,9 +49,10 @@ TEST(Atmosphere, MistakesAreToldAllAtOnceWithTheirPlaces) {
         static_cast<void>(sky::load_atmosphere(path));
         ADD_FAILURE();
     } catch (const sky::AtmosphereErrors& errors) {
-        EXPECT_THAT(errors.lines,
-                    ElementsAre(HasSubstr("wrong.toml:2:1: air.visbility_m: unknown key; did you mean"),
-                                HasSubstr("wrong.toml:4:13: planet.aerosol_g: is 2; it must be -0.95..0.95")));
+        EXPECT_THAT(
+            errors.lines,
+            ElementsAre(HasSubstr("wrong.toml:2:1: air.visbility_m: unknown key; did you mean"),
+                        HasSubstr("wrong.toml:4:13: planet.aerosol_g: is 2; it must be -0.95..0.95")));
     }
     std::filesystem::remove(path);
     EXPECT_THROW(static_cast<void>(sky::load_atmosphere("/nowhere/air.toml")), sky::AtmosphereErrors);

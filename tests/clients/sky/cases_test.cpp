@@ -25,7 +25,9 @@ using ::testing::HasSubstr;
 /// Tells what it was asked.
 class Recorder final : public Solver {
   public:
-    void begin(double altitude_m, double sun_zenith_deg) override { begun.emplace_back(altitude_m, sun_zenith_deg); }
+    void begin(double altitude_m, double sun_zenith_deg) override {
+        begun.emplace_back(altitude_m, sun_zenith_deg);
+    }
     [[nodiscard]] glm::dvec3 xyz(double view_zenith_deg, double rel_azimuth_deg) override {
         return {view_zenith_deg, rel_azimuth_deg, 100.0};
     }
@@ -52,13 +54,13 @@ Outcome run(const std::string& table, Solver& solver) {
 
 TEST(SkyCases, KeepsEveryColumnAndTheOrderAndBuildsEachTableOnce) {
     Recorder solver;
-    const Outcome made = run(
-        "# made by hand\n"
-        "note,rel_azimuth_deg,Sun_Zenith_deg,view_zenith_deg,altitude_m\n"
-        "\"a, b\",50,30,50,0\r\n"
-        "c,0,60,100,0\n"
-        "d,100,30,0,0\n",
-        solver);
+    const Outcome made =
+        run("# made by hand\n"
+            "note,rel_azimuth_deg,Sun_Zenith_deg,view_zenith_deg,altitude_m\n"
+            "\"a, b\",50,30,50,0\r\n"
+            "c,0,60,100,0\n"
+            "d,100,30,0,0\n",
+            solver);
     EXPECT_EQ(made.errors, "");
     EXPECT_EQ(made.text,
               "note,rel_azimuth_deg,Sun_Zenith_deg,view_zenith_deg,altitude_m,skyig_Y_cd_m2,skyig_x,skyig_y\n"
@@ -72,14 +74,14 @@ TEST(SkyCases, KeepsEveryColumnAndTheOrderAndBuildsEachTableOnce) {
 
 TEST(SkyCases, BadRowsAreToldByLineAndColumnAndStayEmpty) {
     Recorder solver;
-    const Outcome made = run(
-        "altitude_m,sun_zenith_deg,view_zenith_deg,rel_azimuth_deg\n"
-        "0,30,x,0\n"
-        "0,181,10,0\n"
-        "-1,30,10,0\n"
-        "0,30,10\n"
-        "0,180,180,-720\n",
-        solver);
+    const Outcome made =
+        run("altitude_m,sun_zenith_deg,view_zenith_deg,rel_azimuth_deg\n"
+            "0,30,x,0\n"
+            "0,181,10,0\n"
+            "-1,30,10,0\n"
+            "0,30,10\n"
+            "0,180,180,-720\n",
+            solver);
     EXPECT_EQ(made.count.rows, 5U);
     EXPECT_EQ(made.count.bad_rows, 4U);
     EXPECT_THAT(made.errors, HasSubstr("in.csv:2: view_zenith_deg: 'x' is not a number in [0, 180]"));
@@ -93,7 +95,8 @@ TEST(SkyCases, BadRowsAreToldByLineAndColumnAndStayEmpty) {
 TEST(SkyCases, HeadingsThatCannotBeUsedAreRefusedBeforeAnythingIsWritten) {
     Recorder solver;
     for (const auto& [table, part] :
-         {std::pair{"", "no heading line"}, std::pair{"altitude_m,view_zenith_deg\n", "no column 'sun_zenith_deg'"},
+         {std::pair{"", "no heading line"},
+          std::pair{"altitude_m,view_zenith_deg\n", "no column 'sun_zenith_deg'"},
           std::pair{"altitude_m,sun_zenith_deg,view_zenith_deg,rel_azimuth_deg,skyig_x\n",
                     "column 'skyig_x' is there already"}}) {
         std::istringstream input(table);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdio>
 #include <limits>
 
@@ -179,6 +180,65 @@ TEST_P(EveryModel, AllocatesOnlyInItsConstructor) {
     }
     EXPECT_EQ(skyig::tests::allocation_count(), before);
     EXPECT_GT(sum, 0.0F);
+}
+
+struct Medium {
+    const char* file;
+    AirModel air;
+};
+
+// One row of the table in docs/models.md for each file.
+TEST_P(EveryModel, ErrorAgainstTheTruthTables) {
+    constexpr double kLargestRms[] = {0.02, 0.35, 0.35, 0.6, 2.5, 1.5};
+    for (const auto& [file, air] :
+         {Medium{"ground_A.csv", atmosphere_a()}, Medium{"ground_B.csv", atmosphere_b()}}) {
+        const Table table = read_table(std::string(SKYIG_TEST_DATA "/sky/") + file);
+        const AirTables tables(air, orders_of(GetParam()));
+        Errors by_range[3];
+        Errors colour;
+        DaySky sky;
+        double built_deg = -1.0;
+        for (std::size_t row = 0; row < table.rows.size(); ++row) {
+            const double sun_deg = table.number(row, "sun_zenith_deg");
+            if (sun_deg > 92.5 || table.number(row, "rel_se_Y") > 0.02) continue;
+            if (sun_deg != built_deg) {
+                sky.begin(settings_, tables, 0.0, (90.0 - sun_deg) * kDeg, true);
+                sky.build_all();
+                built_deg = sun_deg;
+            }
+            const glm::dvec3 xyz = sky.xyz(f32((90.0 - table.number(row, "view_zenith_deg")) * kDeg),
+                                           f32(table.number(row, "rel_azimuth_deg") * kDeg));
+            const double sum = std::max(xyz.x + xyz.y + xyz.z, 1e-30);
+            by_range[sun_deg < 82.0 ? 0 : (sun_deg < 89.0 ? 1 : 2)].add(xyz.y / table.number(row, "Y_cd_m2") -
+                                                                        1.0);
+            colour.add(
+                std::hypot(xyz.x / sum - table.number(row, "x"), xyz.y / sum - table.number(row, "y")));
+        }
+        std::printf("%-9s %s: rms luminance %.1f / %.1f / %.1f %%, median dxy %.4f\n",
+                    std::string(name_of(GetParam())).c_str(), file, 100.0 * by_range[0].rms(),
+                    100.0 * by_range[1].rms(), 100.0 * by_range[2].rms(), colour.quantile(0.5));
+        EXPECT_LT(by_range[0].rms(), kLargestRms[static_cast<std::size_t>(GetParam())]);
+        EXPECT_LT(colour.quantile(0.5), 0.05);
+    }
+}
+
+TEST_P(EveryModel, CostOfALookUp) {
+    DaySky sky;
+    make(sky, 100.0, 30.0);
+    constexpr int kCount = 20000;
+    double least_ns = 1e9;
+    float sum = 0.0F;
+    for (int round = 0; round < 5; ++round) {
+        const auto start = std::chrono::steady_clock::now();
+        for (int i = 0; i < kCount; ++i)
+            sum +=
+                sky.xyz_above(static_cast<float>(i % 1571) * 1e-3F, static_cast<float>(i % 3141) * 1e-3F).y;
+        const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - start;
+        least_ns = std::min(least_ns, spent.count() / kCount);
+    }
+    std::printf("%-9s look-up %.0f ns\n", std::string(name_of(GetParam())).c_str(), least_ns);
+    EXPECT_GT(sum, 0.0F);
+    EXPECT_LT(least_ns, 1e5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, EveryModel,
