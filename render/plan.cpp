@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/geometry.h"
+#include "render/sky/staleness.h"
 
 namespace skyig::render {
 
@@ -13,10 +14,6 @@ constexpr double kDegree = glm::radians(1.0);
 
 // A source moves this far before its table is stale: 1 % of luminance in the steepest twilight.
 constexpr double kStaleAngle_rad = 0.01 * kDegree;
-
-bool height_is_stale(double now_m, double held_m) {
-    return std::abs(now_m - held_m) > std::max(2.0, 0.005 * (std::abs(held_m) + 100.0));
-}
 
 constexpr double kBrightestStar_mag = -1.46;
 // Planets below this stand under the horizon wherever a cockpit may be; from higher up they only cost a pass.
@@ -36,9 +33,11 @@ double brightest_point_mag(const Scene& scene) {
 constexpr double kCoronaBegins = 0.02;
 constexpr double kCoronaWhole = 0.002;
 
-PlannedPass plan_sky(Pass pass, bool lights, bool valid, double now_rad, double held_rad, bool height_stale) {
+PlannedPass plan_sky(Pass pass, bool lights, bool valid, bool same_model, double now_rad, double held_rad,
+                     bool height_stale) {
     if (!lights) return {pass, false, "the source is too low to light the air"};
     if (!valid) return {pass, true, "no table of this air yet"};
+    if (!same_model) return {pass, true, "the sky's model or its parameters have changed"};
     if (std::abs(now_rad - held_rad) > kStaleAngle_rad)
         return {pass, true, "the source has moved by 0.01 deg"};
     if (height_stale) return {pass, true, "the eye has changed height"};
@@ -77,6 +76,7 @@ double faintest_visible_mag(double background_cd_m2) noexcept {
 Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction) noexcept {
     const double sets_at_rad = refraction.setting_elevation_rad();
     Plan plan;
+    plan.sky_model = scene.sky.model;
     const double horizon_rad = horizon_elevation_rad(scene.eye.height_m);
     const double sun_rad = horizontal_of(scene.sun.direction_enu).elevation_rad;
     const double moon_rad = horizontal_of(scene.moon.direction_enu).elevation_rad;
@@ -91,12 +91,12 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
                       smooth_step(-3.0 * kDegree, -6.0 * kDegree, sun_rad);
     // The Moon's table is begun before its light counts.
     const bool moon_lights = moon_rad - horizon_rad > -10.5 * kDegree && sun_rad < -2.0 * kDegree;
-    put(plan,
-        plan_sky(Pass::kSunSky, plan.sun_share > 0.0, held.sun_sky_valid, sun_rad, held.sun_sky_elevation_rad,
-                 height_is_stale(scene.eye.height_m, held.sun_sky_height_m)));
-    put(plan,
-        plan_sky(Pass::kMoonSky, moon_lights, held.moon_sky_valid, moon_rad, held.moon_sky_elevation_rad,
-                 height_is_stale(scene.eye.height_m, held.moon_sky_height_m)));
+    put(plan, plan_sky(Pass::kSunSky, plan.sun_share > 0.0, held.sun_sky_valid, held.sun_sky_model, sun_rad,
+                       held.sun_sky_elevation_rad,
+                       sky::height_is_stale(scene.eye.height_m, held.sun_sky_height_m)));
+    put(plan, plan_sky(Pass::kMoonSky, moon_lights, held.moon_sky_valid, held.moon_sky_model, moon_rad,
+                       held.moon_sky_elevation_rad,
+                       sky::height_is_stale(scene.eye.height_m, held.moon_sky_height_m)));
     put(plan, {Pass::kDome, true, "smooth light of all directions"});
     put(plan, {Pass::kStars, false, "not decided yet"});
     plan.corona_share = smooth_step(kCoronaBegins, kCoronaWhole, scene.sun.unobscured);
