@@ -94,6 +94,15 @@ render::SkySettings sky_settings(const config::Sky& sky) noexcept {
         .windlight = windlight_settings(sky.windlight)};
 }
 
+render::Ground ground_settings(const config::Ground& ground) noexcept {
+    render::Ground settings;
+    settings.kind =
+        ground.surface == config::Surface::kSea ? render::Ground::Kind::kSea : render::Ground::Kind::kLand;
+    settings.albedo = ground.albedo;
+    settings.snow = ground.snow_pct / 100.0;
+    return settings;
+}
+
 render::Air air_settings(const config::Air& air) noexcept {
     return {.model_enabled = true,
             .visibility_m = air.visibility_m,
