@@ -106,7 +106,7 @@ TEST(LightTables, DayCycleFollowsTheSunAsOftenAsTheOthers) {
     LightTables tables;
     double last = luminance(step(tables, scene), 30, 180);
     double largest = 0.0;
-    for (double sun = 20.0; sun > 18.0; sun -= 0.004) {
+    for (double sun = 20.0; sun > 19.0; sun -= 0.004) {
         scene = make_scene(sun, 180, -20, 0, 1000);
         scene.sky.model = SkyModel::kDayCycle;
         const double now = luminance(step(tables, scene), 30, 180);
@@ -116,7 +116,7 @@ TEST(LightTables, DayCycleFollowsTheSunAsOftenAsTheOthers) {
     std::printf("largest step of a frame: %.5f\n", largest);
     // Passing a place of the Sun's path, the sky lags by the frames that its new table takes.
     EXPECT_LT(largest, 0.005);
-    EXPECT_GT(tables.revision(), 100U);
+    EXPECT_GT(tables.revision(), 50U);
 }
 
 TEST(LightTables, FullMoonLightsTheNightAFewHundredThousandthsOfTheDay) {

@@ -6,7 +6,6 @@
 #include "render/sky/models/day_cycle.h"
 #include "render/sky/models/preetham_sky.h"
 #include "render/sky/models/windlight_sky.h"
-#include "render/sky/sky_view.h"
 
 namespace skyig::render::sky::models {
 
@@ -15,6 +14,8 @@ Orders orders_of(SkyModel model) noexcept {
 }
 
 struct DaySky::State {
+    explicit State(const SkyViewSize& size) : view(size), day_cycle(size) {}
+
     SkyView view;  // `multi` and `single`
     DayCycle day_cycle;
     CieSky cie;
@@ -24,7 +25,7 @@ struct DaySky::State {
     const SkyRadiance* shown = &view;
 };
 
-DaySky::DaySky() : state_(std::make_unique<State>()) {}
+DaySky::DaySky(const SkyViewSize& size) : state_(std::make_unique<State>(size)) {}
 DaySky::~DaySky() = default;
 DaySky::DaySky(DaySky&&) noexcept = default;
 DaySky& DaySky::operator=(DaySky&&) noexcept = default;

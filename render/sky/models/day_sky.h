@@ -4,14 +4,10 @@
 #include <memory>
 
 #include "render/sky/sky_radiance.h"
+#include "render/sky/sky_view.h"
 #include "render/sky_settings.h"
 
-namespace skyig::render::sky {
-
-class AirTables;
-enum class Orders;
-
-namespace models {
+namespace skyig::render::sky::models {
 
 /// Which tables of the air a model needs.
 [[nodiscard]] Orders orders_of(SkyModel model) noexcept;
@@ -21,7 +17,8 @@ namespace models {
 /// buffering is the caller's.
 class DaySky final : public SkyRadiance {
   public:
-    DaySky();
+    /// \param size  of the tables of the models that have some
+    explicit DaySky(const SkyViewSize& size = {});
     ~DaySky() override;
     DaySky(const DaySky&) = delete;
     DaySky& operator=(const DaySky&) = delete;
@@ -48,5 +45,4 @@ class DaySky final : public SkyRadiance {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace models
-}  // namespace skyig::render::sky
+}  // namespace skyig::render::sky::models
