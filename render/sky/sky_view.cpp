@@ -110,13 +110,15 @@ void SkyView::State::place_rows() noexcept {
     const double dip_rad = shell.dip_rad(eye_height_m);
     horizon_rad = -dip_rad;
     highest_rad = kHalfPi;
-    double edge_rad = 0.0;
-    if (eye_height_m > shell.top_height_m) {
-        const double excess = (eye_height_m - shell.top_height_m) *
-                              (2.0 * shell.ground_radius_m + shell.top_height_m + eye_height_m);
-        highest_rad = -std::atan2(std::sqrt(excess), shell.ground_radius_m + shell.top_height_m);
-        edge_rad = highest_rad;
-    }
+    const double top_radius_m = shell.ground_radius_m + shell.top_height_m;
+    const double over_m = eye_height_m - shell.top_height_m;
+    const auto limb_rad = [top_radius_m](double above_m) {
+        return -std::atan2(std::sqrt(above_m * (2.0 * top_radius_m + above_m)), top_radius_m);
+    };
+    if (over_m > 0.0) highest_rad = limb_rad(over_m);
+    // At the lid the true edge starts with the root of the height; that of the rows goes through smoothly.
+    const double softness_m = 0.15 * shell.top_height_m;
+    const double edge_rad = limb_rad(0.5 * (over_m + std::hypot(over_m, softness_m)));
     const double horizon_m = std::sqrt(shell.excess_m2(eye_height_m));
     constexpr double kBendM = 8000.0;
     const double sky_range = kHalfPi + dip_rad;
