@@ -39,6 +39,15 @@ double peak(double distance, double width) {
     return 1.0 / (std::abs(distance) + width);
 }
 
+// A flat top with a soft edge.
+double hill(double distance, double width) {
+    const double part = distance / width;
+    return 1.0 / (1.0 + part * part * part * part);
+}
+
+// Radians about the mirror's place within which glitter bends.
+constexpr double kGlitterWidth = 0.4;
+
 }  // namespace
 
 Dome::Dome() {
@@ -65,13 +74,15 @@ void Dome::lay_out(const DomeLayout& layout) {
                second * peak(e - std::max(layout.second_elevation_rad, horizon), 0.03);
     });
     std::array<double, kGroundRows> ground{};
-    place_by_density(ground, -0.5 * kPi, horizon - half_edge, [&](double e) {
-        double density = 0.3 + 0.5 * peak(e - horizon, 0.002);
-        if (layout.sea) {
-            density += first * peak(e - layout.first_mirror_rad, 0.05) +
-                       second * peak(e - layout.second_mirror_rad, 0.05);
-        }
-        return density;
+    ground.fill(-0.5 * kPi);
+    const std::size_t ground_rows = layout.sea ? kGroundRows : kLandRows;
+    const auto glitter = [&](double from_mirror) {
+        return layout.sea ? hill(from_mirror, kGlitterWidth) : 0.0;
+    };
+    place_by_density(std::span(ground).last(ground_rows), -0.5 * kPi, horizon - half_edge, [&](double e) {
+        return 0.3 + 0.5 * peak(e - horizon, 0.002) +
+               16.0 * (first * glitter(e - layout.first_mirror_rad) +
+                       second * glitter(e - layout.second_mirror_rad));
     });
     for (std::size_t i = 0; i < kGroundRows; ++i)
         rows_[i] = {ground[i], ground[i] - horizon, Side::kGround};
@@ -81,11 +92,12 @@ void Dome::lay_out(const DomeLayout& layout) {
     rows_[kGroundRows - 1].above_horizon_rad = 0.0;
     rows_[kGroundRows].above_horizon_rad = 0.0;
 
-    // Low light lays a narrow path on the water.
-    const double width = layout.sea ? 0.006 : 0.03;
+    // Low light lays a narrow path on the water, high light a wide one.
+    const double width = layout.sea ? 0.01 : 0.03;
     place_by_density(azimuths_rad_, -kPi, kPi, [&](double a) {
         const double from_second = std::remainder(a - layout.second_azimuth_rad, 2.0 * kPi);
-        return 0.8 + first * peak(a, width) + second * peak(from_second, width);
+        return 0.8 + first * (peak(a, width) + 16.0 * glitter(a)) +
+               second * (peak(from_second, width) + 16.0 * glitter(from_second));
     });
 
     std::size_t out = 0;
@@ -104,6 +116,11 @@ void Dome::shade(const SkyLight& light, const shaders64::ToneParameters& tone) {
     const double turn = dome_azimuth_rad(light);
     std::size_t out = 0;
     for (const Row& row : rows_) {
+        if (row.elevation_rad <= -0.5 * kPi && out > 0) {
+            for (std::size_t i = 0; i <= kColumns; ++i, ++out)
+                vertices_[out].encoded = vertices_[out - kColumns - 1].encoded;
+            continue;
+        }
         const double elevation = light.horizon_elevation_rad + row.above_horizon_rad;
         for (const double azimuth : azimuths_rad_) {
             const glm::vec3 rgb = light.rgb_cd_m2(elevation, turn + azimuth, row.side);

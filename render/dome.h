@@ -50,7 +50,9 @@ class Dome {
   public:
     static constexpr int kColumns = 112;
     static constexpr int kSkyRows = 64;
-    static constexpr int kGroundRows = 40;
+    static constexpr int kGroundRows = 64;
+    /// Of them over land, which is smooth: the others lie at the nadir and cost nothing.
+    static constexpr int kLandRows = 40;
 
     Dome();
 
