@@ -65,8 +65,14 @@ void Dome::lay_out(const DomeLayout& layout) {
                second * peak(e - std::max(layout.second_elevation_rad, horizon), 0.03);
     });
     std::array<double, kGroundRows> ground{};
-    place_by_density(ground, -0.5 * kPi, horizon - half_edge,
-                     [&](double e) { return 0.3 + 0.5 * peak(e - horizon, 0.002); });
+    place_by_density(ground, -0.5 * kPi, horizon - half_edge, [&](double e) {
+        double density = 0.3 + 0.5 * peak(e - horizon, 0.002);
+        if (layout.sea) {
+            density += first * peak(e - layout.first_mirror_rad, 0.05) +
+                       second * peak(e - layout.second_mirror_rad, 0.05);
+        }
+        return density;
+    });
     for (std::size_t i = 0; i < kGroundRows; ++i)
         rows_[i] = {ground[i], ground[i] - horizon, Side::kGround};
     for (std::size_t i = 0; i < kSkyRows; ++i)
@@ -75,9 +81,11 @@ void Dome::lay_out(const DomeLayout& layout) {
     rows_[kGroundRows - 1].above_horizon_rad = 0.0;
     rows_[kGroundRows].above_horizon_rad = 0.0;
 
+    // Low light lays a narrow path on the water.
+    const double width = layout.sea ? 0.006 : 0.03;
     place_by_density(azimuths_rad_, -kPi, kPi, [&](double a) {
         const double from_second = std::remainder(a - layout.second_azimuth_rad, 2.0 * kPi);
-        return 0.8 + first * peak(a, 0.03) + second * peak(from_second, 0.03);
+        return 0.8 + first * peak(a, width) + second * peak(from_second, width);
     });
 
     std::size_t out = 0;
@@ -119,6 +127,11 @@ DomeLayout dome_layout(const SkyLight& light, double edge_rad) noexcept {
         layout.second_lights
             ? std::remainder(light.moon.source.azimuth_rad - light.sun.source.azimuth_rad, 2.0 * kPi)
             : 0.0;
+    layout.sea = light.sea != nullptr;
+    if (layout.sea) {
+        layout.first_mirror_rad = sky::mirror_elevation_rad(light.eye_height_m, layout.first_elevation_rad);
+        layout.second_mirror_rad = sky::mirror_elevation_rad(light.eye_height_m, layout.second_elevation_rad);
+    }
     return layout;
 }
 
@@ -135,6 +148,8 @@ bool still_serves(const DomeLayout& held, const DomeLayout& wanted) noexcept {
     return held.edge_rad == wanted.edge_rad && held.first_lights == wanted.first_lights &&
            held.second_lights == wanted.second_lights &&
            std::abs(held.horizon_elevation_rad - wanted.horizon_elevation_rad) < 0.05 * wanted.edge_rad &&
+           held.sea == wanted.sea && near(held.first_mirror_rad, wanted.first_mirror_rad) &&
+           near(held.second_mirror_rad, wanted.second_mirror_rad) &&
            near(held.first_elevation_rad, wanted.first_elevation_rad) &&
            near(held.second_elevation_rad, wanted.second_elevation_rad) &&
            near(held.second_azimuth_rad, wanted.second_azimuth_rad);

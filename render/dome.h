@@ -32,6 +32,10 @@ struct DomeLayout {
     double second_elevation_rad = 0.0;
     double second_azimuth_rad = 0.0;
     bool second_lights = false;
+    /// The ground mirrors them: finer rows where, finer columns below them.
+    bool sea = false;
+    double first_mirror_rad = -1.5;
+    double second_mirror_rad = -1.5;
 };
 
 /// Where the mesh is best laid for this light: turned to the Sun if it lights the air, else to the Moon.

@@ -37,7 +37,7 @@ PlannedPass plan_sky(Pass pass, bool lights, bool valid, bool same_model, double
                      bool height_stale) {
     if (!lights) return {pass, false, "the source is too low to light the air"};
     if (!valid) return {pass, true, "no table of this air yet"};
-    if (!same_model) return {pass, true, "the sky's model or its parameters have changed"};
+    if (!same_model) return {pass, true, "the sky's model, its parameters or the sea have changed"};
     if (std::abs(now_rad - held_rad) > kStaleAngle_rad)
         return {pass, true, "the source has moved by 0.01 deg"};
     if (height_stale) return {pass, true, "the eye has changed height"};

@@ -123,7 +123,7 @@ server::SceneBuilder scene_builder(const ShotOptions& options, const config::Con
         throw ConfigErrors{};
     }
     return server::SceneBuilder(server::ephemeris_model(config), std::move(*orientation.orientation),
-                                server::sky_settings(config.sky));
+                                server::sky_settings(config.sky), server::ground_settings(config.ground));
 }
 
 Shot take_shot(const ShotOptions& options) {

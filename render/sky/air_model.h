@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "render/scene.h"
+#include "render/sky/air_shape.h"
 
 namespace skyig::render::sky {
 
@@ -17,33 +18,18 @@ using Spectrum = std::array<float, kWavelengths>;
 inline constexpr double kFirstWavelengthNm = 390.0;
 inline constexpr double kWavelengthStepNm = 21.0;
 
-/// Density relative to that at height 0, log-linear between knots of rising height (the first at 0); the last
-/// slope goes on above the last knot. Two knots make one exponential.
-struct DensityProfile {
-    static constexpr std::size_t kMaxKnots = 28;
-    std::size_t knot_count = 0;
-    std::array<double, kMaxKnots> height_m{};
-    std::array<double, kMaxKnots> log_density{};
-};
-
 /// Spherical shell of molecules, aerosol and ozone over a Lambertian ground. Coefficients are per metre at
 /// height 0, except ozone's, which is at the peak of its triangular layer. No refraction, no polarisation.
-struct AirModel {
-    double ground_radius_m = 6371.0e3;
-    double top_height_m = 120.0e3;
-    DensityProfile molecules;
-    double aerosol_scale_height_m = 1200.0;
-    /// Cornette-Shanks parameter (not the mean cosine), the same at all wavelengths.
-    double aerosol_g = 0.75;
-    double ozone_bottom_m = 10.0e3;
-    double ozone_peak_m = 25.0e3;
-    double ozone_top_m = 40.0e3;
+struct AirModel : AirShape {
     Spectrum wavelength_nm{};
     Spectrum rayleigh_per_m{};
     Spectrum aerosol_extinction_per_m{};
     Spectrum aerosol_scattering_per_m{};
     Spectrum ozone_peak_per_m{};
     Spectrum ground_albedo{};
+    /// The part of it that a wavy mirror reflects, the same at all wavelengths: it lights the air, but is
+    /// left out where the ground is seen (SeaView adds it). 0 on land.
+    float ground_mirror_albedo = 0.0F;
     /// What each wavelength carries of the Sun's XYZ illuminance (lux scale, 1 AU, outside the air): X, Y, Z
     /// rows. Sums to 1.32e5 lx in Y. Radiances in this folder are per unit of solar irradiance (1/sr), so XYZ
     /// in cd/m2 = sum over i of sunlight_xyz_lux[.][i] * transfer[i].
@@ -75,11 +61,18 @@ inline constexpr double kMaxVisibilityM = 250.0e3;
 /// The air of a scene: US Standard Atmosphere 1976 molecules (scaled with the pressure), 300 DU of ozone,
 /// aerosol with a scale height of 1.2 km (less below 4 km of visibility, in proportion: mist is shallow)
 /// whose extinction at the ground brings the total at 550 nm to -ln(contrast) / visibility, a dull
-/// grass-and-soil ground (luminous albedo about 0.1), lid at 120 km, ground at 6371 km. `model_enabled ==
-/// false`: molecules and ozone only. Any input is legal: what is not finite counts as the default, what is
-/// out of range is clamped (visibility as above, contrast 0.01..0.2, pressure 850..1085 hPa), and the model
-/// depends continuously on each number. Temperature and humidity do not enter.
-[[nodiscard]] AirModel air_model(const Air& air);
+/// grass-and-soil ground (luminous albedo about 0.1) unless `ground` says otherwise, lid at 120 km, ground at
+/// 6371 km. `model_enabled == false`: molecules and ozone only. Any input is legal: what is not finite counts
+/// as the default, what is out of range is clamped (visibility as above, contrast 0.01..0.2, pressure
+/// 850..1085 hPa), and the model depends continuously on each number. Temperature and humidity do not enter.
+///
+/// Land of another albedo has the same colour; snow is nearly white (albedo 0.85). The sea sends back what
+/// its surface reflects of a day's light (0.05) and blue light from below: open ocean, remote-sensing
+/// reflectances that the band ratio OC4 (O'Reilly et al. 1998) reads as 0.15 mg/m3 of chlorophyll.
+[[nodiscard]] AirModel air_model(const Air& air, const Ground& ground = {});
+
+/// What a surface of this albedo reflects of sunlight's illuminance.
+[[nodiscard]] double luminous_albedo(const AirModel& model, const Spectrum& albedo) noexcept;
 
 /// Another planet's air, or a simple one of this: exponential molecules and dust, optics at 550 nm with
 /// simple spectra. The defaults are the Earth's.

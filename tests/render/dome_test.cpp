@@ -10,6 +10,7 @@
 
 #include "render/eye/tone_curve.h"
 #include "render/light_tables.h"
+#include "tests/render/dome_colour.h"
 #include "tests/render/light_tables_steps.h"
 #include "tests/render/scenes.h"
 
@@ -17,30 +18,6 @@ namespace skyig::render {
 namespace {
 
 using tests::kDegree;
-
-// Colour of the flat triangle that a direction pierces, as the rasteriser interpolates it; false if none is
-// hit.
-bool interpolate(const Dome& dome, const glm::dvec3& direction, glm::dvec3& colour) {
-    const auto vertices = dome.vertices();
-    const auto indices = dome.indices();
-    for (std::size_t i = 0; i < indices.size(); i += 3) {
-        const glm::dvec3 a{vertices[indices[i]].direction};
-        const glm::dvec3 b{vertices[indices[i + 1]].direction};
-        const glm::dvec3 c{vertices[indices[i + 2]].direction};
-        const glm::dmat3 corners{a, b, c};
-        const double determinant = glm::determinant(corners);
-        if (std::abs(determinant) < 1e-14) continue;
-        const glm::dvec3 w = glm::inverse(corners) * direction;
-        if (w.x < -1e-9 || w.y < -1e-9 || w.z < -1e-9) continue;
-        const double sum = w.x + w.y + w.z;
-        colour = (glm::dvec3{vertices[indices[i]].encoded} * w.x +
-                  glm::dvec3{vertices[indices[i + 1]].encoded} * w.y +
-                  glm::dvec3{vertices[indices[i + 2]].encoded} * w.z) /
-                 sum;
-        return true;
-    }
-    return false;
-}
 
 TEST(Dome, CoversEveryDirectionWhateverTheHorizon) {
     Dome dome;
@@ -53,7 +30,8 @@ TEST(Dome, CoversEveryDirectionWhateverTheHorizon) {
                 const glm::dvec3 d =
                     glm::normalize(glm::dvec3{normal(random), normal(random), normal(random)});
                 glm::dvec3 colour;
-                EXPECT_TRUE(interpolate(dome, d, colour)) << dip_deg << " " << source_deg << " " << d.z;
+                EXPECT_TRUE(tests::drawn_colour(dome, d, colour))
+                    << dip_deg << " " << source_deg << " " << d.z;
             }
         }
     }
@@ -112,7 +90,7 @@ TEST(Dome, InterpolatedColoursAreWithinACodeOfTheExactOnes) {
             const double elevation = light.horizon_elevation_rad + std::pow(unit(random), 2.0) * 1.5 + 0.002;
             const double from_source = (unit(random) < 0.5 ? -1 : 1) * std::pow(unit(random), 2.0) * 3.1;
             glm::dvec3 drawn;
-            ASSERT_TRUE(interpolate(dome, direction_of({elevation, from_source}), drawn));
+            ASSERT_TRUE(tests::drawn_colour(dome, direction_of({elevation, from_source}), drawn));
             const glm::dvec3 exact{shaders32::shown(
                 light.rgb_cd_m2(elevation, turn + from_source, Side::kSky), eye::single_precision(tone))};
             const glm::dvec3 d = glm::abs(drawn - exact) * 255.0;
