@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "render/deferred_pass.h"
 #include "render/discs.h"
 #include "render/dome.h"
 #include "render/eye/adaptation.h"
@@ -114,7 +115,7 @@ struct Renderer::Impl {
 
     void adapt();
     void refresh_dome();
-    void draw_smooth(const ChannelView& view, std::size_t channel);
+    void refresh_deferred();
 
     std::vector<Channel> channels;
     DisplaySettings display;
@@ -129,6 +130,7 @@ struct Renderer::Impl {
     Corona corona;
     SunDisc sun_disc;
     MoonDisc moon_disc;
+    std::unique_ptr<DeferredPass> deferred;  // once a scene is drawn
 
     LightTables tables;
     eye::Adaptation adaptation;
@@ -191,6 +193,10 @@ void Renderer::Impl::refresh_dome() {
               wanted.second_azimuth_rad};
 }
 
+void Renderer::Impl::refresh_deferred() {
+    deferred->prepare(scene, report.plan, tables, light, eye::single_precision(tone), display.dither);
+}
+
 Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display) {
     if (channels.empty() || channels.size() > kMaxChannels) {
         throw std::runtime_error("a renderer draws 1 to " + std::to_string(kMaxChannels) + " channels, not " +
@@ -233,6 +239,7 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     if (plan.needs(Pass::kMoonDisc)) {
         m.moon_disc.prepare(scene, m.tables.air(), m.light, m.pixel_rad, tone32, m.display.dither);
     }
+    if (m.deferred) m.refresh_deferred();
     m.report.gl_errors = m.log.errors();
     return m.report;
 }
@@ -272,6 +279,22 @@ void Renderer::draw(std::size_t channel) {
     gl::finish();
 }
 
+void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
+    Impl& m = *impl_;
+    draw(channel);
+    if (channel >= m.channels.size() || channel >= m.scene.view_count) return;
+    const ChannelView& view = m.scene.views[channel];
+    if (!has_area(view.frustum) || !(input.far_m > 0.0)) return;
+    if (!m.deferred) {
+        m.deferred = std::make_unique<DeferredPass>();
+        m.refresh_deferred();
+    }
+    m.targets[channel].bind();
+    gl::set_blend(gl::Blend::kReplace);
+    m.deferred->draw(view, input);
+    gl::finish();
+}
+
 void Renderer::read_back(std::size_t channel, std::span<std::byte> rgba) {
     if (channel < impl_->targets.size()) impl_->targets[channel].read_rgba8(rgba);
 }
@@ -284,6 +307,13 @@ glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu) const {
     const Horizontal at = horizontal_of(direction_enu);
     const glm::vec3 rgb = impl_->light.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation);
     return shaders64::shown(glm::dvec3{rgb}, impl_->tone);
+}
+
+glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu, double distance_m,
+                                      const glm::dvec3& rgb_cd_m2) const {
+    if (!impl_->deferred) return shaders64::shown(rgb_cd_m2, impl_->tone);
+    return shaders64::shown(impl_->deferred->air().under_air(rgb_cd_m2, direction_enu, distance_m),
+                            impl_->tone);
 }
 
 }  // namespace skyig::render
