@@ -29,7 +29,7 @@ double sunlight_lux(const sky::AirModel& model) {
 
 }  // namespace
 
-LightTables::LightTables() = default;
+LightTables::LightTables(const sky::SkyViewSize& size) : sun_(size), moon_(size) {}
 
 sky::RefractionRow LightTables::refraction(const Scene& scene) const noexcept {
     const double pressure_hpa = scene.air.model_enabled ? scene.air.pressure_hpa : 0.0;

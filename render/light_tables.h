@@ -4,6 +4,7 @@
 // measured time; should the machine need longer for new air than those frames last, that one frame waits.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -23,7 +24,8 @@ class LightTables {
     static constexpr std::uint64_t kAirLatencyFrames = 30;
     static constexpr int kRowsAFrame = 10;
 
-    LightTables();
+    /// \param size  of the direction tables
+    explicit LightTables(const sky::SkyViewSize& size = {});
     LightTables(const LightTables&) = delete;
     LightTables& operator=(const LightTables&) = delete;
 
@@ -48,6 +50,11 @@ class LightTables {
     /// Whether the last update() replaced a table because Sun, Moon or eye had jumped.
     [[nodiscard]] bool jumped() const noexcept { return jumped_; }
 
+    /// Rises with every new air, once a table made of it is in use.
+    [[nodiscard]] std::uint64_t air_in_use() const noexcept {
+        return std::max(sun_.front_made.air, moon_.front_made.air);
+    }
+
     /// Precondition: update() was called.
     [[nodiscard]] const sky::AirTables& air() const noexcept { return *air_; }
 
@@ -59,6 +66,8 @@ class LightTables {
         double height_m = 0.0;
     };
     struct View {
+        explicit View(const sky::SkyViewSize& size) : front(size), back(size) {}
+
         sky::SkyView front;
         sky::SkyView back;
         Made front_made;
