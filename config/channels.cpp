@@ -17,24 +17,9 @@ struct ChannelPlaces {
 };
 
 void read_offset(TableReader& table, Channel& channel, ChannelPlaces& places) {
-    const Value* value = table.any("offset_m");
-    if (value == nullptr) return;
-    places.offset = value->place;
-    const auto* list = std::get_if<Array>(&value->data);
-    constexpr std::string_view kWanted = "it must be three numbers of metres: [forward, right, down]";
-    if (list == nullptr || list->items.size() != channel.offset_m.size()) {
-        table.error(*value, "offset_m", fmt::format("is {}; {}", type_name(*value), kWanted));
-        return;
-    }
-    for (std::size_t i = 0; i < channel.offset_m.size(); ++i) {
-        double read = 0.0;
-        if (!as_number(list->items[i], read) || std::abs(read) > kMaxOffset_m) {
-            table.error(list->items[i], "offset_m",
-                        fmt::format("holds what is not a number within {} m; {}", kMaxOffset_m, kWanted));
-            continue;
-        }
-        channel.offset_m[i] = read;
-    }
+    const Value* value = table.numbers("offset_m", channel.offset_m, {-kMaxOffset_m, kMaxOffset_m, "m"},
+                                       "three numbers of metres: [forward, right, down]");
+    if (value != nullptr) places.offset = value->place;
 }
 
 /// One pair of frustum sides: both are needed, and something has to lie between them.

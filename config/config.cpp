@@ -2,24 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <memory>
 
 #include "config/document.h"
 #include "config/schema.h"
 
 namespace skyig::config {
 namespace {
-
-/// Nobody writes so much by hand; a mistaken path (a device, a recording) is told at once.
-constexpr std::size_t kMaxFileBytes = std::size_t{256} << 10U;
-
-LoadResult failed(const std::string& file, std::string message) {
-    return {std::nullopt, {{file, 0, 0, {}, std::move(message)}}};
-}
 
 std::string_view output_name(OutputKind kind) {
     switch (kind) {
@@ -54,15 +43,10 @@ LoadResult parse_config(std::string_view text, const std::string& file_name) {
 }
 
 LoadResult load_config(const std::string& path) {
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-    if (!file) return failed(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
-    std::string text(kMaxFileBytes + 1, '\0');
-    const std::size_t size = std::fread(text.data(), 1, text.size(), file.get());
-    if (std::ferror(file.get()) != 0)
-        return failed(path, fmt::format("cannot be read: {}", std::strerror(errno)));
-    if (size > kMaxFileBytes) return failed(path, "is larger than 256 KiB: this is no configuration");
-    text.resize(size);
-    return parse_config(text, path);
+    ConfigError error;
+    const std::optional<std::string> text = read_settings_text(path, error);
+    if (!text) return {std::nullopt, {std::move(error)}};
+    return parse_config(*text, path);
 }
 
 Config default_config() {

@@ -9,6 +9,7 @@
 
 #include "config/channel.h"
 #include "config/host.h"
+#include "config/sky.h"
 #include "config/source.h"
 
 namespace skyig::config {
@@ -57,14 +58,6 @@ struct Air {
     /// 800..1100
     double pressure_hpa = 1013.25;
     double humidity_pct = 50.0;
-};
-
-/// What shines at start-up and after Standby.
-struct Sky {
-    bool sun = true;
-    bool moon = true;
-    bool stars = true;
-    double star_intensity_pct = 100.0;
 };
 
 /// From cheap to good.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -43,6 +44,10 @@ struct Value {
     /// Where the key stands; that of the value for items of arrays.
     Place key_place;
 };
+
+/// A file's text; nothing and `error` filled when it cannot be read or is larger than 256 KiB, more than
+/// anyone writes by hand: a mistaken path (a device, a recording) is told at once.
+[[nodiscard]] std::optional<std::string> read_settings_text(const std::string& path, ConfigError& error);
 
 /// Reads TOML. A line with more than 32 dots outside strings and comments is refused: its keys would nest
 /// deeper than a parser can follow. On a syntax error `error` is filled (line, column, message) and the table

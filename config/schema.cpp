@@ -11,17 +11,6 @@ constexpr std::array<std::string_view, 2> kToneNames{"hybrid", "linear"};
 constexpr std::array<std::string_view, 3> kModelNames{"almanac", "erfa", "series"};
 constexpr std::array<std::string_view, 1> kOutputNames{"headless"};
 
-/// The table of that name below the root; an error if the key holds something else.
-TableReader open_table(TableReader& root, ErrorList& errors, std::string_view name) {
-    const Value* value = root.any(name);
-    if (value == nullptr) return TableReader(errors, nullptr, {}, std::string(name));
-    const auto* table = std::get_if<Table>(&value->data);
-    if (table == nullptr) {
-        root.error(*value, name, fmt::format("is {}; it must be a table: [{}]", type_name(*value), name));
-    }
-    return TableReader(errors, table, value->place, std::string(name));
-}
-
 void read_version(TableReader& root) {
     int version = 1;
     const Value* value = root.integer("version", version, 0, 1'000'000);
@@ -72,23 +61,6 @@ void read_start(TableReader table, Start& start) {
     table.number("yaw_deg", start.yaw_deg, {-360.0, 360.0, "degrees"});
     table.number("pitch_deg", start.pitch_deg, {-90.0, 90.0, "degrees"});
     table.number("roll_deg", start.roll_deg, {-180.0, 180.0, "degrees"});
-    table.finish();
-}
-
-void read_air(TableReader table, Air& air) {
-    table.number("visibility_m", air.visibility_m, {10.0, 400'000.0, "m"});
-    table.number("visibility_contrast", air.visibility_contrast, {0.01, 0.1, {}});
-    table.number("temperature_c", air.temperature_c, {-90.0, 60.0, "degrees Celsius"});
-    table.number("pressure_hpa", air.pressure_hpa, {800.0, 1100.0, "hPa"});
-    table.number("humidity_pct", air.humidity_pct, {0.0, 100.0, "%"});
-    table.finish();
-}
-
-void read_sky(TableReader table, Sky& sky) {
-    table.boolean("sun", sky.sun);
-    table.boolean("moon", sky.moon);
-    table.boolean("stars", sky.stars);
-    table.number("star_intensity_pct", sky.star_intensity_pct, {0.0, 100.0, "%"});
     table.finish();
 }
 
@@ -160,23 +132,32 @@ void read_record(TableReader table, Record& record) {
 
 }  // namespace
 
+void read_air(TableReader table, Air& air) {
+    table.number("visibility_m", air.visibility_m, {10.0, 400'000.0, "m"});
+    table.number("visibility_contrast", air.visibility_contrast, {0.01, 0.1, {}});
+    table.number("temperature_c", air.temperature_c, {-90.0, 60.0, "degrees Celsius"});
+    table.number("pressure_hpa", air.pressure_hpa, {800.0, 1100.0, "hPa"});
+    table.number("humidity_pct", air.humidity_pct, {0.0, 100.0, "%"});
+    table.finish();
+}
+
 Config read_config(const Table& document, ErrorList& errors) {
     Config config;
     TableReader root(errors, &document, {}, {});
     read_version(root);
-    read_daemon(open_table(root, errors, "daemon"), config.daemon);
-    TableReader host = open_table(root, errors, "host");
+    read_daemon(root.table("daemon"), config.daemon);
+    TableReader host = root.table("host");
     read_host(host, config.host);
     read_sources(root, errors, config.host, config.sources);
-    read_start(open_table(root, errors, "start"), config.start);
-    read_air(open_table(root, errors, "air"), config.air);
-    read_sky(open_table(root, errors, "sky"), config.sky);
-    read_ephemeris(open_table(root, errors, "ephemeris"), config.ephemeris);
-    read_display(open_table(root, errors, "display"), config.display);
-    read_eye(open_table(root, errors, "eye"), config.eye);
-    read_output(open_table(root, errors, "output"), config.output);
-    read_record(open_table(root, errors, "record"), config.record);
-    TableReader status = open_table(root, errors, "status");
+    read_start(root.table("start"), config.start);
+    read_air(root.table("air"), config.air);
+    read_sky(root.table("sky"), config.sky);
+    read_ephemeris(root.table("ephemeris"), config.ephemeris);
+    read_display(root.table("display"), config.display);
+    read_eye(root.table("eye"), config.eye);
+    read_output(root.table("output"), config.output);
+    read_record(root.table("record"), config.record);
+    TableReader status = root.table("status");
     read_status(status, config.status);
     read_channels(root, errors, config.channels);
     root.finish();

@@ -16,6 +16,10 @@ void read_sources(TableReader& root, ErrorList& errors, const Host& host, std::v
 /// Reads [status].
 void read_status(TableReader& table, Status& status);
 
+/// Reads [air] and [sky] with its tables.
+void read_air(TableReader table, Air& air);
+void read_sky(TableReader table, Sky& sky);
+
 /// Reads the [[channel]] tables and checks them against one another.
 void read_channels(TableReader& root, ErrorList& errors, std::vector<Channel>& channels);
 

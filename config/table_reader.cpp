@@ -167,6 +167,38 @@ const Value* TableReader::choice(std::string_view key, std::size_t& out,
     return value;
 }
 
+const Value* TableReader::numbers(std::string_view key, std::span<double> out, const Range& range,
+                                  std::string_view wanted) {
+    const Value* value = any(key);
+    if (value == nullptr) return nullptr;
+    const auto* list = std::get_if<Array>(&value->data);
+    if (list == nullptr || list->items.size() != out.size()) {
+        error(*value, key, fmt::format("is {}; it must be {}", type_name(*value), wanted));
+        return nullptr;
+    }
+    bool good = true;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        double read = 0.0;
+        if (as_number(list->items[i], read) && read >= range.min && read <= range.max) {
+            out[i] = read;
+            continue;
+        }
+        good = false;
+        error(list->items[i], key,
+              fmt::format("holds what is not a number {}; it must be {}", to_text(range), wanted));
+    }
+    return good ? value : nullptr;
+}
+
+TableReader TableReader::table(std::string_view key) {
+    const Value* value = any(key);
+    if (value == nullptr) return {errors_, nullptr, {}, key_path(key)};
+    const auto* below = std::get_if<Table>(&value->data);
+    if (below == nullptr)
+        error(*value, key, fmt::format("is {}; it must be a table: [{}]", type_name(*value), key_path(key)));
+    return {errors_, below, value->place, key_path(key)};
+}
+
 void TableReader::require(std::string_view key, std::string_view wanted) {
     if (table_ != nullptr && table_->find(key) != nullptr) return;
     errors_.add(place_, key_path(key), fmt::format("is missing; it must be {}", wanted));

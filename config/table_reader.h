@@ -50,6 +50,12 @@ class TableReader {
     const Value* text(std::string_view key, std::string& out);
     /// One of `names`; `out` becomes its index.
     const Value* choice(std::string_view key, std::size_t& out, std::span<const std::string_view> names);
+    /// A list of as many numbers as `out` holds, each in the range. \param wanted  what the list is, for
+    /// errors
+    const Value* numbers(std::string_view key, std::span<double> out, const Range& range,
+                         std::string_view wanted);
+    /// The table below this one; an error if the key holds something else.
+    [[nodiscard]] TableReader table(std::string_view key);
     /// Any value at all, for keys that may hold several types.
     const Value* any(std::string_view key);
 

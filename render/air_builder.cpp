@@ -16,10 +16,10 @@ AirBuilder::~AirBuilder() {
     thread_.join();
 }
 
-void AirBuilder::request(const sky::AirModel& model) noexcept {
+void AirBuilder::request(const sky::AirModel& model, sky::Orders orders) noexcept {
     {
         const std::lock_guard lock(mutex_);
-        wanted_ = model;
+        wanted_ = Request{model, orders};
         built_.reset();
         done_ = false;
     }
@@ -37,11 +37,11 @@ void AirBuilder::run() noexcept {
     while (true) {
         changed_.wait(lock, [this] { return stop_ || wanted_.has_value(); });
         if (stop_) return;
-        const sky::AirModel model = *std::exchange(wanted_, std::nullopt);
+        const Request wanted = *std::exchange(wanted_, std::nullopt);
         lock.unlock();
         std::optional<sky::AirTables> tables;
         try {
-            tables.emplace(model);
+            tables.emplace(wanted.model, wanted.orders);
         } catch (const std::exception&) {
             tables.reset();
         }

@@ -20,7 +20,7 @@ class AirBuilder {
     AirBuilder& operator=(const AirBuilder&) = delete;
 
     /// Begins to build. Precondition: nothing is being built, or take() has been called since.
-    void request(const sky::AirModel& model) noexcept;
+    void request(const sky::AirModel& model, sky::Orders orders) noexcept;
 
     /// Waits until the request is done. Nothing when it failed (no memory): the caller keeps what it has and
     /// asks again.
@@ -31,7 +31,12 @@ class AirBuilder {
 
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::optional<sky::AirModel> wanted_;
+    struct Request {
+        sky::AirModel model;
+        sky::Orders orders = sky::Orders::kAll;
+    };
+
+    std::optional<Request> wanted_;
     std::optional<sky::AirTables> built_;
     bool done_ = false;
     bool stop_ = false;

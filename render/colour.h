@@ -15,4 +15,13 @@ inline constexpr glm::dmat3 kRec709FromXyz{3.2404541621,  -0.9692660305, 0.05564
     return glm::mat3(kRec709FromXyz) * xyz;
 }
 
+/// The same primaries the other way.
+inline constexpr glm::dmat3 kXyzFromRec709{0.4124564391, 0.2126728514, 0.0193338956,  //
+                                           0.3575760776, 0.7151521553, 0.1191920259,  //
+                                           0.1804374833, 0.0721749934, 0.9503040785};
+
+[[nodiscard]] inline glm::vec3 xyz_from_rec709(const glm::vec3& rgb) noexcept {
+    return glm::mat3(kXyzFromRec709) * rgb;
+}
+
 }  // namespace skyig::render

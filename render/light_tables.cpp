@@ -40,9 +40,13 @@ Held LightTables::held(const Scene& scene) const noexcept {
     Held held;
     held.air_valid = air_.has_value();
     // Compared as the model sees it: temperature, or a visibility beyond its range, makes no new air.
-    held.air_fresh = air_.has_value() && air_->model() == sky::air_model(scene.air);
+    held.air_fresh = air_.has_value() && air_->orders() == sky::models::orders_of(scene.sky.model) &&
+                     air_->model() == sky::air_model(scene.air);
+    const SkySettings wanted = fitting(scene.sky);
     held.sun_sky_valid = sun_.front_made.air != 0 && sun_.front_made.air == air_revision_;
     held.moon_sky_valid = moon_.front_made.air != 0 && moon_.front_made.air == air_revision_;
+    held.sun_sky_model = sun_.front_made.sky == wanted;
+    held.moon_sky_model = moon_.front_made.sky == wanted;
     held.sun_sky_elevation_rad = sun_.front_made.elevation_rad;
     held.sun_sky_height_m = sun_.front_made.height_m;
     held.moon_sky_elevation_rad = moon_.front_made.elevation_rad;
@@ -50,9 +54,13 @@ Held LightTables::held(const Scene& scene) const noexcept {
     return held;
 }
 
+SkySettings LightTables::fitting(const SkySettings& asked) const noexcept {
+    return air_ && air_->orders() != sky::models::orders_of(asked.model) ? sky_ : asked;
+}
+
 void LightTables::update_air(const Scene& scene, const Plan& plan) {
     if (!air_) {
-        air_.emplace(sky::air_model(scene.air));
+        air_.emplace(sky::air_model(scene.air), sky::models::orders_of(scene.sky.model));
         ++air_revision_;
         return;
     }
@@ -66,14 +74,14 @@ void LightTables::update_air(const Scene& scene, const Plan& plan) {
         return;
     }
     if (!plan.needs(Pass::kAirTables)) return;
-    builder_.request(sky::air_model(scene.air));
+    builder_.request(sky::air_model(scene.air), sky::models::orders_of(scene.sky.model));
     next_air_age_ = 0;
 }
 
-void LightTables::update_view(View& view, bool needed, bool matters, double elevation_rad, double height_m) {
+void LightTables::update_view(View& view, const Wanted& wanted) {
     const auto begin = [&] {
-        view.back.begin(*air_, height_m, elevation_rad);
-        view.back_made = {air_revision_, elevation_rad, height_m};
+        view.back.begin(sky_, *air_, wanted.height_m, wanted.elevation_rad, wanted.by_sun);
+        view.back_made = {air_revision_, sky_, wanted.elevation_rad, wanted.height_m};
         view.building = true;
     };
     const auto take_over = [&] {
@@ -84,18 +92,19 @@ void LightTables::update_view(View& view, bool needed, bool matters, double elev
     };
     // Beyond these steps the picture in use is wrong rather than late.
     const Made& latest = view.building ? view.back_made : view.front_made;
-    const bool lost = latest.air == 0 || std::abs(latest.elevation_rad - elevation_rad) > 0.5 * kDegree ||
-                      std::abs(latest.height_m - height_m) > 200.0 + 0.2 * std::abs(latest.height_m);
-    if (needed && lost) {
+    const bool lost = latest.air == 0 ||
+                      std::abs(latest.elevation_rad - wanted.elevation_rad) > 0.5 * kDegree ||
+                      std::abs(latest.height_m - wanted.height_m) > 200.0 + 0.2 * std::abs(latest.height_m);
+    if (wanted.needed && lost) {
         begin();
-        if (!matters) view.front_made.air = 0;
-        if (matters) {
+        if (!wanted.matters) view.front_made.air = 0;
+        if (wanted.matters) {
             view.back.build_all();
             take_over();
             jumped_ = true;
             return;
         }
-    } else if (needed && !view.building) {
+    } else if (wanted.needed && !view.building) {
         begin();
     }
     if (view.building && view.back.build_rows(kRowsAFrame)) take_over();
@@ -104,10 +113,12 @@ void LightTables::update_view(View& view, bool needed, bool matters, double elev
 void LightTables::update(const Scene& scene, const Plan& plan) {
     jumped_ = false;
     update_air(scene, plan);
+    sky_ = fitting(scene.sky);
     const double sun_rad = horizontal_of(scene.sun.direction_enu).elevation_rad;
     const double moon_rad = horizontal_of(scene.moon.direction_enu).elevation_rad;
-    update_view(sun_, plan.needs(Pass::kSunSky), plan.sun_share > 0.0, sun_rad, scene.eye.height_m);
-    update_view(moon_, plan.needs(Pass::kMoonSky), plan.moon_share > 0.0, moon_rad, scene.eye.height_m);
+    update_view(sun_, {plan.needs(Pass::kSunSky), plan.sun_share > 0.0, true, sun_rad, scene.eye.height_m});
+    update_view(moon_,
+                {plan.needs(Pass::kMoonSky), plan.moon_share > 0.0, false, moon_rad, scene.eye.height_m});
 }
 
 SkyLight LightTables::light(const Scene& scene, const Plan& plan,

@@ -12,8 +12,8 @@
 #include "render/plan.h"
 #include "render/scene.h"
 #include "render/sky/air_tables.h"
+#include "render/sky/models/day_sky.h"
 #include "render/sky/refraction.h"
-#include "render/sky/sky_view.h"
 #include "render/sky_light.h"
 
 namespace skyig::render {
@@ -62,23 +62,34 @@ class LightTables {
     /// What a table was asked to be made for.
     struct Made {
         std::uint64_t air = 0;  ///< revision of the air, 0: never made
+        SkySettings sky;
         double elevation_rad = 0.0;
         double height_m = 0.0;
     };
     struct View {
         explicit View(const sky::SkyViewSize& size) : front(size), back(size) {}
 
-        sky::SkyView front;
-        sky::SkyView back;
+        sky::models::DaySky front;
+        sky::models::DaySky back;
         Made front_made;
         Made back_made;
         bool building = false;
     };
+    /// What a view is to be made for.
+    struct Wanted {
+        bool needed = false;
+        bool matters = false;
+        bool by_sun = true;
+        double elevation_rad = 0.0;
+        double height_m = 0.0;
+    };
     void update_air(const Scene& scene, const Plan& plan);
-    void update_view(View& view, bool needed, bool matters, double elevation_rad, double height_m);
+    void update_view(View& view, const Wanted& wanted);
+    [[nodiscard]] SkySettings fitting(const SkySettings& asked) const noexcept;
 
     sky::Refraction refraction_;
     std::optional<sky::AirTables> air_;
+    SkySettings sky_;  // the scene's, or those before it until the air for its model is there
     std::uint64_t air_revision_ = 0;
     AirBuilder builder_;
     std::optional<std::uint64_t> next_air_age_;  // frames since the request, if there is one

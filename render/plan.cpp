@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/geometry.h"
+#include "render/sky/staleness.h"
 
 namespace skyig::render {
 
@@ -13,10 +14,6 @@ constexpr double kDegree = glm::radians(1.0);
 
 // A source moves this far before its table is stale: 1 % of luminance in the steepest twilight.
 constexpr double kStaleAngle_rad = 0.01 * kDegree;
-
-bool height_is_stale(double now_m, double held_m) {
-    return std::abs(now_m - held_m) > std::max(2.0, 0.005 * (std::abs(held_m) + 100.0));
-}
 
 constexpr double kBrightestStar_mag = -1.46;
 // Planets below this stand under the horizon wherever a cockpit may be; from higher up they only cost a pass.
@@ -54,9 +51,11 @@ struct Verdict {
     std::string_view reason;
 };
 
-Verdict plan_sky(bool lights, bool valid, double now_rad, double held_rad, bool height_stale) {
+Verdict plan_sky(bool lights, bool valid, bool same_model, double now_rad, double held_rad,
+                 bool height_stale) {
     if (!lights) return {false, "the source is too low to light the air"};
     if (!valid) return {true, "no table of this air yet"};
+    if (!same_model) return {true, "the sky's model or its parameters have changed"};
     if (std::abs(now_rad - held_rad) > kStaleAngle_rad) return {true, "the source has moved by 0.01 deg"};
     if (height_stale) return {true, "the eye has changed height"};
     return {false, "the table is fresh"};
@@ -109,11 +108,12 @@ void plan_skies(Plan& plan, const Scene& scene, const Held& held, double sun_rad
     const bool moon_lights =
         forced(Pass::kMoonSky) || (moon_rad - horizon_rad > -10.5 * kDegree && sun_rad < -2.0 * kDegree);
     put(plan, Pass::kSunSky,
-        plan_sky(plan.sun_share > 0.0, held.sun_sky_valid, sun_rad, held.sun_sky_elevation_rad,
-                 height_is_stale(scene.eye.height_m, held.sun_sky_height_m)));
+        plan_sky(plan.sun_share > 0.0, held.sun_sky_valid, held.sun_sky_model, sun_rad,
+                 held.sun_sky_elevation_rad,
+                 sky::height_is_stale(scene.eye.height_m, held.sun_sky_height_m)));
     put(plan, Pass::kMoonSky,
-        plan_sky(moon_lights, held.moon_sky_valid, moon_rad, held.moon_sky_elevation_rad,
-                 height_is_stale(scene.eye.height_m, held.moon_sky_height_m)));
+        plan_sky(moon_lights, held.moon_sky_valid, held.moon_sky_model, moon_rad, held.moon_sky_elevation_rad,
+                 sky::height_is_stale(scene.eye.height_m, held.moon_sky_height_m)));
     for (const Pass pass : {Pass::kSunSky, Pass::kMoonSky}) {
         PlannedPass& planned = plan.passes[static_cast<std::size_t>(pass)];
         planned.resolution = {plan.table.sky_rows + plan.table.ground_rows, plan.table.columns};
@@ -166,6 +166,7 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     const double moon_rad = horizontal_of(scene.moon.direction_enu).elevation_rad;
     Plan plan;
     plan.forced = quality.forced;
+    plan.sky_model = scene.sky.model;
     plan.table = direction_table_size(quality);
     const bool air_stale = !held.air_valid || !held.air_fresh;
     put(plan, Pass::kAirTables, {air_stale, air_stale ? "the air is new" : "the air has not changed"});

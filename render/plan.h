@@ -66,15 +66,19 @@ struct Held {
     bool air_valid = false;
     bool air_fresh = false;
     bool sun_sky_valid = false;
+    bool sun_sky_model = true;  ///< made by the scene's model with its parameters
     double sun_sky_elevation_rad = 0.0;
     double sun_sky_height_m = 0.0;
     bool moon_sky_valid = false;
+    bool moon_sky_model = true;
     double moon_sky_elevation_rad = 0.0;
     double moon_sky_height_m = 0.0;
 };
 
 struct Plan {
     std::array<PlannedPass, kPassCount> passes{};
+    /// Which model makes the sky of Sun and Moon.
+    SkyModel sky_model = SkyModel::kMulti;
     /// How much of the light that Sun and Moon scatter in the air is drawn, 0..1: it fades out where it no
     /// longer counts.
     double sun_share = 0.0;

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "render/channel.h"
+#include "render/sky_settings.h"
 
 namespace skyig::render {
 
@@ -137,6 +138,8 @@ struct Scene {
     std::array<Planet, kPlanetCount> planets{};
     Air air;
     Sea sea;
+    /// Which model draws the day sky.
+    SkySettings sky;
 
     std::array<ChannelView, kMaxChannels> views{};
     std::size_t view_count = 0;

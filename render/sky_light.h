@@ -6,14 +6,14 @@
 
 #include "render/geometry.h"
 #include "render/sky/refraction.h"
-#include "render/sky/sky_view.h"
+#include "render/sky/sky_radiance.h"
 
 namespace skyig::render {
 
 /// A light source and the table of the air and ground it lights.
 struct LitAir {
-    const sky::SkyView* view = nullptr;  ///< null: this source lights nothing
-    Horizontal source;                   ///< where it stands in this frame; the table may lag by 0.01 deg
+    const sky::SkyRadiance* view = nullptr;  ///< null: this source lights nothing
+    Horizontal source;                       ///< where it stands in this frame; the table may lag by 0.01 deg
     /// Factors on X, Y, Z of the table (distance, obscuration, the Moon's share and tint).
     glm::vec3 scale_xyz{0.0F};
 };

@@ -41,7 +41,7 @@ FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, 
       image_every_(image_every),
       answers_(config.host),
       inbox_(config, parts.world, parts.log),
-      scenes_(ephemeris_model(config), std::move(orientation)),
+      scenes_(ephemeris_model(config), std::move(orientation), sky_settings(config.sky)),
       times_(config.channels.size()) {}
 
 void FrameLoop::warm_up() {

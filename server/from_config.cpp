@@ -1,6 +1,6 @@
 #include "server/from_config.h"
 
-#include "render/scene.h"
+#include <glm/glm.hpp>
 
 namespace skyig::server {
 
@@ -47,6 +47,69 @@ ephemeris::EarthOrientationResult load_earth_orientation(const config::Config& c
     if (!result)
         result.error = config::to_text({settings_file, 0, 0, "ephemeris.earth_orientation", result.error});
     return result;
+}
+
+namespace {
+
+glm::dvec3 colour(const std::array<double, 3>& rgb) {
+    return {rgb[0], rgb[1], rgb[2]};
+}
+
+render::WindlightSettings windlight_settings(const config::WindlightSky& look) noexcept {
+    return {.blue_horizon = colour(look.blue_horizon),
+            .haze_horizon = look.haze_horizon,
+            .blue_density = colour(look.blue_density),
+            .haze_density = look.haze_density,
+            .density_per_m = look.density_per_m,
+            .max_altitude_m = look.max_altitude_m,
+            .sunlight = colour(look.sunlight),
+            .ambient = colour(look.ambient),
+            .glow_size = look.glow_size,
+            .glow_floor = look.glow_floor,
+            .glow_power = look.glow_power,
+            .horizon_drop = look.horizon_drop,
+            .unit_cd_m2 = look.unit_cd_m2,
+            .places_sun = look.sun_angle_deg.has_value(),
+            .sun_angle_rad = glm::radians(look.sun_angle_deg.value_or(0.0)),
+            .east_angle_rad = glm::radians(look.east_angle_deg)};
+}
+
+render::SkyModel sky_model(config::SkyModel model) noexcept {
+    switch (model) {
+        case config::SkyModel::kSingle:
+            return render::SkyModel::kSingle;
+        case config::SkyModel::kDayCycle:
+            return render::SkyModel::kDayCycle;
+        case config::SkyModel::kCie:
+            return render::SkyModel::kCie;
+        case config::SkyModel::kPreetham:
+            return render::SkyModel::kPreetham;
+        case config::SkyModel::kWindlight:
+            return render::SkyModel::kWindlight;
+        case config::SkyModel::kMulti:
+            break;
+    }
+    return render::SkyModel::kMulti;
+}
+
+}  // namespace
+
+render::SkySettings sky_settings(const config::Sky& sky) noexcept {
+    return {
+        .model = sky_model(sky.model),
+        .day_cycle = {.desaturation = sky.day_cycle.desaturation},
+        .cie = {.type = sky.cie.type, .zenith_luminance_cd_m2 = sky.cie.zenith_luminance_cd_m2},
+        .preetham = {.turbidity = sky.preetham.turbidity, .zenith_of_multi = sky.preetham.zenith_of_multi},
+        .windlight = windlight_settings(sky.windlight)};
+}
+
+render::Air air_settings(const config::Air& air) noexcept {
+    return {.model_enabled = true,
+            .visibility_m = air.visibility_m,
+            .visibility_contrast = air.visibility_contrast,
+            .temperature_c = air.temperature_c,
+            .pressure_hpa = air.pressure_hpa,
+            .humidity_pct = air.humidity_pct};
 }
 
 render::DisplaySettings display_settings(const config::Config& config) {

@@ -7,6 +7,7 @@
 #include "config/config.h"
 #include "render/channel.h"
 #include "render/display.h"
+#include "render/scene.h"
 #include "server/clock.h"
 #include "server/ephemeris/bodies.h"
 #include "server/ephemeris/earth_orientation.h"
@@ -25,6 +26,11 @@ namespace skyig::server {
 /// line that names the key too; `settings_file` only names the settings in it.
 [[nodiscard]] ephemeris::EarthOrientationResult load_earth_orientation(const config::Config& config,
                                                                        const std::string& settings_file);
+
+[[nodiscard]] render::SkySettings sky_settings(const config::Sky& sky) noexcept;
+
+/// Air of a description without a world around it.
+[[nodiscard]] render::Air air_settings(const config::Air& air) noexcept;
 
 [[nodiscard]] render::DisplaySettings display_settings(const config::Config& config);
 

@@ -152,6 +152,9 @@ render::Scene SceneBuilder::build(const world::World& world, std::uint64_t frame
     light(clockwork_.state(instant_, eye), world.celestial(), scene);
     scene.air = air_of(world.air());
     scene.sea = sea_of(world, scene.eye);
+    scene.sky = sky_;
+    if (sky_.model == render::SkyModel::kWindlight && sky_.windlight.places_sun)
+        scene.sun.direction_enu = render::placed_sun_enu(sky_.windlight);
     return scene;
 }
 

@@ -32,9 +32,11 @@ class SceneBuilder {
   public:
     /// \param model  which series place the bodies
     /// \param orientation  UT1 and pole as measured; without rows the built-in tables hold
+    /// \param sky  what draws the day sky; where it says the Sun's place, the Sun stands there
     explicit SceneBuilder(ephemeris::Model model = ephemeris::Model::kSeries,
-                          ephemeris::EarthOrientation orientation = {}) noexcept
-        : orientation_(std::move(orientation)), clockwork_(model) {}
+                          ephemeris::EarthOrientation orientation = {},
+                          const render::SkySettings& sky = {}) noexcept
+        : orientation_(std::move(orientation)), sky_(sky), clockwork_(model) {}
 
     [[nodiscard]] render::Scene build(const world::World& world, std::uint64_t frame_number);
 
@@ -52,6 +54,7 @@ class SceneBuilder {
     void aim_views(const world::World& world, render::Scene& scene) noexcept;
 
     ephemeris::EarthOrientation orientation_;
+    render::SkySettings sky_;
     ephemeris::OffsetsOfDay offsets_;
     ephemeris::SkyClockwork clockwork_;
     /// Of the frame at hand: east-north-up at the ownship from that at the eye, row by row as the library

@@ -14,14 +14,15 @@
 #include "clients/skyig/options.h"
 #include "clients/skyig/status/http_get.h"
 #include "protocol/transport/endpoint.h"
+#include "render/sky_settings.h"
 #include "server/ephemeris/time.h"
 
 namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> kVerbs{"host",   "shot",   "bench",  "ephem", "decode",
-                                                 "replay", "record", "status", "top"};
+constexpr std::array<std::string_view, 10> kVerbs{"host",   "shot",   "bench", "ephem",  "decode",
+                                                  "replay", "record", "sky",   "status", "top"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -65,6 +66,11 @@ CLI::Validator finite_in(double lo, double hi) {
     return {check, fmt::format("NUMBER in [{:.9g}, {:.9g}]", lo, hi)};
 }
 
+CLI::Validator sky_model_name() {
+    return CLI::IsMember(
+        std::vector<std::string>(render::kSkyModelNames.begin(), render::kSkyModelNames.end()));
+}
+
 void add_host(CLI::App& app, HostOptions& options, std::string& order) {
     app.add_option("--flight", options.flight_path, "the flight to fly (CSV)")->required()->type_name("FILE");
     app.add_option("--utc", options.utc, "UTC at the start, as 2026-06-21T19:30:00Z")
@@ -98,7 +104,7 @@ void add_host(CLI::App& app, HostOptions& options, std::string& order) {
     app.add_flag("--json", options.json, "tell the results as JSON");
 }
 
-void add_shot(CLI::App& app, ShotOptions& options) {
+void add_shot(CLI::App& app, ShotOptions& options, std::string& sky_model) {
     CLI::Option* config = app.add_option("--config", options.config_path,
                                          "settings to start from (TOML); all their channels are drawn")
                               ->type_name("FILE");
@@ -116,6 +122,9 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     app.add_option("--roll", options.roll_deg, "degrees right wing down")->check(finite_in(-180.0, 180.0));
     app.add_option("--visibility-m", options.visibility_m, "visibility at the ground, metres")
         ->check(finite_in(10.0, 400'000.0));
+    app.add_option("--sky", sky_model, "model of the day sky (the settings', or multi)")
+        ->check(sky_model_name())
+        ->type_name("MODEL");
     app.add_option("--width", options.width_px, "pixels across (1280)")
         ->check(CLI::Range(1, 16384))
         ->excludes(config);
@@ -348,6 +357,28 @@ void add_status(CLI::App& app, StatusOptions& options) {
     app.add_flag("--json", options.json, "tell it as JSON, in a watch one line each time");
 }
 
+void add_sky(CLI::App& app, SkyOptions& options) {
+    app.add_option("--model", options.model, "model of the day sky (the file's, or multi)")
+        ->check(sky_model_name())
+        ->type_name("MODEL");
+    app.add_option("--atmosphere", options.atmosphere, "A, B (those of the truth tables) or a TOML file (B)")
+        ->type_name("AIR");
+    app.add_option("--cases", options.cases_path, "the table to fill in (CSV); - is standard input")
+        ->required()
+        ->type_name("FILE");
+    app.add_option("-o,--out", options.out_path,
+                   "where the filled table goes; - is standard output (so it is)")
+        ->type_name("FILE");
+    app.footer(
+        "The table needs altitude_m (above the model's ground), sun_zenith_deg, view_zenith_deg and "
+        "rel_azimuth_deg (from the Sun's); every row keeps its columns and gets skyig_Y_cd_m2, skyig_x, "
+        "skyig_y (0, 0, 0 where it is black). Sun at 1 AU, no refraction. A TOML file holds [air] and [sky] "
+        "as "
+        "in a configuration, or [planet] (docs/configuration.md). A bad row is told on stderr, its new "
+        "columns "
+        "stay empty, and the exit status is 1.");
+}
+
 /// The first word that is no option, when it is no verb either.
 const char* unknown_verb(int argc, const char* const* argv) {
     if (argc < 2 || argv[1][0] == '-') return nullptr;
@@ -366,6 +397,8 @@ struct Verbs {
     RecordOptions record;
     StatusOptions status;
     StatusOptions top;
+    SkyOptions sky;
+    std::string shot_sky;
     std::string order = "little";
     std::string horizon = "almanac";
 };
@@ -373,7 +406,7 @@ struct Verbs {
 void add_verbs(CLI::App& app, Verbs& verbs) {
     add_host(*app.add_subcommand("host", "fly a recorded flight at a daemon and tell what it answers"),
              verbs.host, verbs.order);
-    add_shot(*app.add_subcommand("shot", "draw one still without a network"), verbs.shot);
+    add_shot(*app.add_subcommand("shot", "draw one still without a network"), verbs.shot, verbs.shot_sky);
     add_bench(*app.add_subcommand("bench", "measure error and cost of every model of a family"), verbs.bench);
     add_ephem(
         *app.add_subcommand("ephem", "where Sun, Moon, planets and stars stand, and when things happen"),
@@ -393,6 +426,8 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
     verbs.top.clear_screen = true;
     top.add_option("--every", verbs.top.watch_s, "seconds from one page to the next (1)")
         ->check(finite_in(0.1, 3600.0));
+    add_sky(*app.add_subcommand("sky", "luminance and colour of the sky for a table of directions"),
+            verbs.sky);
 }
 
 void require_one_body(const EphemOptions& options) {
@@ -404,6 +439,11 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     verbs.host.big_endian = verbs.order == "big";
     require_one_body(verbs.ephem);
     verbs.ephem.eye_horizon = verbs.horizon == "eye";
+    if (!verbs.shot_sky.empty()) {
+        const auto* const at =
+            std::find(render::kSkyModelNames.begin(), render::kSkyModelNames.end(), verbs.shot_sky);
+        verbs.shot.sky_model = static_cast<config::SkyModel>(at - render::kSkyModelNames.begin());
+    }
     if (app.got_subcommand("host")) invocation.options = verbs.host;
     if (app.got_subcommand("shot")) invocation.options = verbs.shot;
     if (app.got_subcommand("bench")) invocation.options = verbs.bench;
@@ -413,6 +453,7 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     if (app.got_subcommand("record")) invocation.options = verbs.record;
     if (app.got_subcommand("status")) invocation.options = verbs.status;
     if (app.got_subcommand("top")) invocation.options = verbs.top;
+    if (app.got_subcommand("sky")) invocation.options = verbs.sky;
 }
 
 std::string usage_error(const char* what, const char* verb) {

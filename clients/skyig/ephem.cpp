@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -15,6 +13,7 @@
 #include "clients/skyig/ephem/almanac.h"
 #include "clients/skyig/ephem/batch.h"
 #include "clients/skyig/ephem/report.h"
+#include "clients/table_streams.h"
 #include "render/sky/refraction.h"
 #include "server/clock.h"
 
@@ -23,13 +22,6 @@ namespace skyig::clients {
 using namespace server::ephemeris;
 
 namespace {
-
-constexpr std::string_view kStandardStream = "-";
-
-/// Leaves with status 2.
-struct WrongUsage : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 std::optional<Geodetic> site_of(const EphemOptions& options) {
     if (!options.latitude_deg || !options.longitude_deg) return std::nullopt;
@@ -103,9 +95,9 @@ int almanac(const EphemOptions& options) {
     return 0;
 }
 
-ephem::BatchSettings batch_settings(const EphemOptions& options) {
+ephem::BatchSettings batch_settings(const EphemOptions& options, const std::string& input_name) {
     ephem::BatchSettings settings;
-    settings.input_name = options.batch_path == kStandardStream ? "standard input" : options.batch_path;
+    settings.input_name = input_name;
     settings.time_column = options.time_column;
     if (!options.bodies.empty()) settings.body = parse_body(options.bodies.front());
     settings.site = site_of(options);
@@ -114,38 +106,13 @@ ephem::BatchSettings batch_settings(const EphemOptions& options) {
     return settings;
 }
 
-void require_two_files(const EphemOptions& options) {
-    std::error_code none;
-    if (std::filesystem::equivalent(options.batch_path, options.out_path, none))
-        throw WrongUsage("--out is the table that is read; name another file");
-}
-
 int batch(const EphemOptions& options) {
-    const ephem::BatchSettings settings = batch_settings(options);
-    std::ifstream input_file;
-    if (options.batch_path != kStandardStream) {
-        input_file.open(options.batch_path);
-        if (!input_file) throw std::runtime_error(fmt::format("{}: cannot be read", options.batch_path));
-    }
-    std::ofstream output_file;
-    const bool to_file = !options.out_path.empty() && options.out_path != kStandardStream;
-    if (to_file) require_two_files(options);
-    std::istream& input = input_file.is_open() ? static_cast<std::istream&>(input_file) : std::cin;
-    std::ostream& output = to_file ? static_cast<std::ostream&>(output_file) : std::cout;
-    const auto open_output = [&]() -> std::ostream& {
-        if (to_file) output_file.open(options.out_path, std::ios::binary);
-        if (!output) throw std::runtime_error(fmt::format("{}: cannot be written", options.out_path));
-        return output;
-    };
-    const ephem::BatchCount count = ephem::run_batch(input, open_output, std::cerr, settings);
-    // An error of C's stream looks to std::cin like the end.
-    if (!input_file.is_open() && std::ferror(stdin) != 0)
-        throw std::runtime_error(fmt::format("{}: cannot be read", settings.input_name));
-    output.flush();
-    if (!output)
-        throw std::runtime_error(
-            fmt::format("{}: cannot be written", to_file ? options.out_path : "standard output"));
-    if (to_file) fmt::print("{}  {} rows, {} bad\n", options.out_path, count.rows, count.bad_rows);
+    TableStreams streams(options.batch_path, options.out_path, "--out");
+    const ephem::BatchCount count = ephem::run_batch(
+        streams.input(), [&]() -> std::ostream& { return streams.open_output(); }, std::cerr,
+        batch_settings(options, streams.input_name()));
+    streams.finish();
+    if (streams.to_file()) fmt::print("{}  {} rows, {} bad\n", options.out_path, count.rows, count.bad_rows);
     return count.bad_rows == 0 ? 0 : 1;
 }
 

@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "config/sky.h"
+
 namespace skyig::clients {
 
 /// skyig host: fly a recorded flight at a daemon.
@@ -47,6 +49,8 @@ struct ShotOptions {
     std::optional<double> pitch_deg;
     std::optional<double> roll_deg;
     std::optional<double> visibility_m;
+    /// Of the day sky, in place of the settings' one.
+    std::optional<config::SkyModel> sky_model;
     /// Of the one channel without settings.
     int width_px = 1280;
     int height_px = 1024;
@@ -153,10 +157,23 @@ struct StatusOptions {
     bool json = false;
 };
 
+/// skyig sky: a table of directions gets the sky's light.
+struct SkyOptions {
+    /// Of render::kSkyModelNames, already checked; empty = the one that the atmosphere's file names, else
+    /// multi.
+    std::string model;
+    /// "A", "B" or a file.
+    std::string atmosphere = "B";
+    /// "-" = standard input.
+    std::string cases_path;
+    /// Empty or "-" = standard output.
+    std::string out_path;
+};
+
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
     std::variant<std::monostate, HostOptions, ShotOptions, BenchOptions, EphemOptions, DecodeOptions,
-                 ReplayOptions, RecordOptions, StatusOptions>
+                 ReplayOptions, RecordOptions, SkyOptions, StatusOptions>
         options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)

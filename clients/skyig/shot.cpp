@@ -81,6 +81,7 @@ config::Config shot_config(const ShotOptions& options) {
     start.pitch_deg = options.pitch_deg.value_or(start.pitch_deg);
     start.roll_deg = options.roll_deg.value_or(start.roll_deg);
     config.air.visibility_m = options.visibility_m.value_or(config.air.visibility_m);
+    config.sky.model = options.sky_model.value_or(config.sky.model);
     return config;
 }
 
@@ -121,7 +122,8 @@ server::SceneBuilder scene_builder(const ShotOptions& options, const config::Con
         fmt::print(stderr, "{}\n", orientation.error);
         throw ConfigErrors{};
     }
-    return server::SceneBuilder(server::ephemeris_model(config), std::move(*orientation.orientation));
+    return server::SceneBuilder(server::ephemeris_model(config), std::move(*orientation.orientation),
+                                server::sky_settings(config.sky));
 }
 
 Shot take_shot(const ShotOptions& options) {

@@ -140,6 +140,11 @@ void build_medium(const AirModel& model, AirData& data) {
     }
 }
 
+void keep_forward_peak(AirData& data) noexcept {
+    data.medium.aerosol_diffuse_extinction = data.medium.aerosol_extinction;
+    data.medium.aerosol_diffuse_scattering = data.medium.aerosol_scattering;
+}
+
 void build_columns(AirData& data) {
     constexpr double kLeastColumnM = 1e-3;  // keeps the logarithm finite where a constituent has ended
     data.columns.assign(std::size_t{kColumnRows} * kColumnAngles * 4, 0.0F);

@@ -57,6 +57,9 @@ struct AirData {
 /// Everything but the moments.
 void build_medium(const AirModel& model, AirData& data);
 void build_columns(AirData& data);
+/// Where no higher order brings back what the forward peak of the aerosol takes out of a ray, that counts as
+/// lost.
+void keep_forward_peak(AirData& data) noexcept;
 /// Needs the rest.
 void build_moments(AirData& data);
 

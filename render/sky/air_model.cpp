@@ -88,17 +88,6 @@ DensityProfile standard_molecules() {
     return profile;
 }
 
-double column_m(const DensityProfile& profile) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k + 1 < profile.knot_count; ++k) {
-        const double low = std::exp(profile.log_density[k]);
-        const double high = std::exp(profile.log_density[k + 1]);
-        sum += (low - high) * (profile.height_m[k + 1] - profile.height_m[k]) /
-               (profile.log_density[k] - profile.log_density[k + 1]);
-    }
-    return sum;
-}
-
 // Optical depth of all molecules at 1013.25 hPa: Bodhaine et al., J. Atmos. Oceanic Technol. 16 (1999) 1854,
 // eq. 30.
 double rayleigh_depth(double nm) {
@@ -139,6 +128,31 @@ bool operator==(const AirModel& a, const AirModel& b) noexcept {
            a.sunlight_xyz_lux == b.sunlight_xyz_lux;
 }
 
+double column_above_m(const DensityProfile& profile, double height_m) noexcept {
+    double sum = 0.0;
+    for (std::size_t k = 0; k + 1 < profile.knot_count; ++k) {
+        const bool last = k + 2 == profile.knot_count;
+        if (!last && profile.height_m[k + 1] <= height_m) continue;
+        const double scale_m = (profile.height_m[k + 1] - profile.height_m[k]) /
+                               (profile.log_density[k] - profile.log_density[k + 1]);
+        const double from_m = std::max(height_m, profile.height_m[k]);
+        const double low = std::exp(profile.log_density[k] - (from_m - profile.height_m[k]) / scale_m);
+        const double high = last ? 0.0 : std::exp(profile.log_density[k + 1]);
+        sum += scale_m * (low - high);
+    }
+    return sum;
+}
+
+glm::dvec3 xyz_of_sunlight(const AirModel& model, const Spectrum& part) noexcept {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        sum += static_cast<double>(part[i]) * glm::dvec3(model.sunlight_xyz_lux[0][i],
+                                                         model.sunlight_xyz_lux[1][i],
+                                                         model.sunlight_xyz_lux[2][i]);
+    }
+    return glm::max(sum, glm::dvec3(0.0));
+}
+
 AirModel atmosphere_a() {
     AirModel model = with_sunlight(kSolarBins);
     model.ground_radius_m = 6360.0e3;
@@ -177,7 +191,7 @@ AirModel air_model(const Air& air) {
 
     AirModel model = with_sunlight(kSolarBins);
     model.molecules = standard_molecules();
-    const double per_m = pressure_hpa / 1013.25 / column_m(model.molecules);
+    const double per_m = pressure_hpa / 1013.25 / column_above_m(model.molecules, 0.0);
     model.rayleigh_per_m = spectrum_of([&](double nm) { return per_m * rayleigh_depth(nm); });
     model.ozone_peak_per_m = spectrum_of([](double nm) { return sample_at(kOzonePeak, nm); });
     model.ground_albedo = spectrum_of(ground_albedo);
@@ -195,6 +209,37 @@ AirModel air_model(const Air& air) {
     model.aerosol_extinction_per_m = spectrum_of(extinction);
     model.aerosol_scattering_per_m =
         spectrum_of([&](double nm) { return kSingleScatteringAlbedo * extinction(nm); });
+    return model;
+}
+
+AirModel planet_air(const PlanetAir& planet) {
+    const PlanetAir usual;
+    const auto in = [&](double PlanetAir::*number, double least, double most) {
+        return std::clamp(finite_or(planet.*number, usual.*number), least, most);
+    };
+    const auto between_colours = [](double blue, double red) {
+        return [=](double nm) { return std::clamp(blue + (red - blue) * (nm - 440.0) / 240.0, 0.0, 1.0); };
+    };
+    AirModel model = with_sunlight(kSolarBins);
+    model.ground_radius_m = in(&PlanetAir::ground_radius_m, 1e5, 1e8);
+    model.top_height_m = in(&PlanetAir::top_height_m, 1e3, 1e6);
+    model.molecules = exponential(in(&PlanetAir::molecule_height_m, 10.0, 1e6));
+    model.aerosol_scale_height_m = in(&PlanetAir::aerosol_height_m, 10.0, 1e6);
+    model.aerosol_g = in(&PlanetAir::aerosol_g, -0.95, 0.95);
+    const double rayleigh = in(&PlanetAir::rayleigh_per_m, 0.0, 0.01);
+    model.rayleigh_per_m = spectrum_of([&](double nm) { return rayleigh * std::pow(nm / 550.0, -4.0); });
+    const double aerosol = in(&PlanetAir::aerosol_per_m, 0.0, 0.01);
+    const double angstrom = in(&PlanetAir::aerosol_angstrom, -2.0, 4.0);
+    const auto extinction = [&](double nm) { return aerosol * std::pow(nm / 550.0, -angstrom); };
+    const auto scattered = between_colours(in(&PlanetAir::aerosol_albedo_blue, 0.0, 1.0),
+                                           in(&PlanetAir::aerosol_albedo_red, 0.0, 1.0));
+    model.aerosol_extinction_per_m = spectrum_of(extinction);
+    model.aerosol_scattering_per_m = spectrum_of([&](double nm) { return scattered(nm) * extinction(nm); });
+    constexpr double kTabulatedDobson = 300.0;
+    const double ozone = in(&PlanetAir::ozone_dobson, 0.0, 1000.0) / kTabulatedDobson;
+    model.ozone_peak_per_m = spectrum_of([&](double nm) { return ozone * sample_at(kOzonePeak, nm); });
+    model.ground_albedo = spectrum_of(between_colours(in(&PlanetAir::ground_albedo_blue, 0.0, 1.0),
+                                                      in(&PlanetAir::ground_albedo_red, 0.0, 1.0)));
     return model;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <glm/glm.hpp>
 
 #include "render/scene.h"
 
@@ -51,6 +52,14 @@ struct AirModel {
     friend bool operator==(const AirModel& a, const AirModel& b) noexcept;
 };
 
+/// Metres of air of the density at height 0 that weigh as much as all above `height_m`, the last slope going
+/// on.
+[[nodiscard]] double column_above_m(const DensityProfile& profile, double height_m) noexcept;
+
+/// XYZ of sunlight of which `part` is left over, wavelength by wavelength: cd/m2 for radiances per unit of
+/// solar irradiance, lux for transmittances. Not below 0.
+[[nodiscard]] glm::dvec3 xyz_of_sunlight(const AirModel& model, const Spectrum& part) noexcept;
+
 /// The two media of the truth tables in tests/data/sky (6360 km ground, lid at 60 km).
 /// A: Penndorf molecules, absorbing haze with an Angstrom exponent 0.8, grass, no ozone.
 /// B: lambda^-4 molecules, grey haze, 300 DU of ozone, albedo 0.1.
@@ -71,5 +80,27 @@ inline constexpr double kMaxVisibilityM = 250.0e3;
 /// out of range is clamped (visibility as above, contrast 0.01..0.2, pressure 850..1085 hPa), and the model
 /// depends continuously on each number. Temperature and humidity do not enter.
 [[nodiscard]] AirModel air_model(const Air& air);
+
+/// Another planet's air, or a simple one of this: exponential molecules and dust, optics at 550 nm with
+/// simple spectra. The defaults are the Earth's.
+struct PlanetAir {
+    double ground_radius_m = 6371.0e3;  ///< 1e5..1e8
+    double top_height_m = 120.0e3;      ///< 1e3..1e6
+    double molecule_height_m = 8000.0;  ///< scale height, 10..1e6
+    double rayleigh_per_m = 1.16e-5;    ///< at the ground, as the wavelength's -4th power; 0..0.01
+    double aerosol_height_m = 1200.0;   ///< scale height, 10..1e6
+    double aerosol_per_m = 2.0e-5;      ///< extinction at the ground; 0..0.01
+    double aerosol_angstrom = 1.2;      ///< its fall with wavelength, -2..4
+    double aerosol_albedo_blue = 0.94;  ///< single-scattering albedo at 440 nm, 0..1; linear between
+    double aerosol_albedo_red = 0.94;   ///< at 680 nm
+    double aerosol_g = 0.75;            ///< Cornette-Shanks, -0.95..0.95
+    double ozone_dobson = 300.0;        ///< 0..1000
+    double ground_albedo_blue = 0.08;   ///< at 440 nm, 0..1; linear between
+    double ground_albedo_red = 0.2;     ///< at 680 nm
+};
+
+/// Numbers out of range count as the nearest end, what is not finite as the default. Sunlight is that at 1
+/// AU.
+[[nodiscard]] AirModel planet_air(const PlanetAir& planet);
 
 }  // namespace skyig::render::sky

@@ -16,16 +16,6 @@ double visible_part(double above_horizon_rad) {
     return part * part * (3.0 - 2.0 * part);
 }
 
-glm::dvec3 sunlight_xyz(const AirModel& model, const Spectrum& part) {
-    glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < part.size(); ++i) {
-        sum += static_cast<double>(part[i]) * glm::dvec3(model.sunlight_xyz_lux[0][i],
-                                                         model.sunlight_xyz_lux[1][i],
-                                                         model.sunlight_xyz_lux[2][i]);
-    }
-    return glm::max(sum, glm::dvec3(0.0));
-}
-
 Spectrum spectrum_of(const Lanes& lanes) {
     Spectrum spectrum{};
     std::copy(std::begin(lanes.v), std::end(lanes.v), spectrum.begin());
@@ -45,16 +35,24 @@ double at_wavelength(const Spectrum& transmittance, double nm) {
 
 }  // namespace
 
-AirTables::AirTables(const AirModel& model) {
+AirTables::AirTables(const AirModel& model, Orders orders) {
     auto data = std::make_shared<AirData>();
     build_medium(model, *data);
     build_columns(*data);
-    build_moments(*data);
+    if (orders == Orders::kAll) {
+        build_moments(*data);
+    } else {
+        keep_forward_peak(*data);
+    }
     data_ = std::move(data);
 }
 
 const AirModel& AirTables::model() const noexcept {
     return data_->model;
+}
+
+Orders AirTables::orders() const noexcept {
+    return data_->moments.empty() ? Orders::kFirst : Orders::kAll;
 }
 
 Spectrum AirTables::transmittance(double height_m, double elevation_rad) const noexcept {
@@ -95,10 +93,12 @@ glm::dvec3 AirTables::transmittance_rgb(double height_m, double elevation_rad) c
 
 glm::dvec3 AirTables::direct_sun_xyz(double height_m, double elevation_rad,
                                      double distance_au) const noexcept {
-    return sunlight_xyz(data_->model, transmittance(height_m, elevation_rad)) / (distance_au * distance_au);
+    return xyz_of_sunlight(data_->model, transmittance(height_m, elevation_rad)) /
+           (distance_au * distance_au);
 }
 
 glm::dvec3 AirTables::ground_diffuse_xyz(double source_elevation_rad) const noexcept {
+    if (data_->log_ground.empty()) return glm::dvec3(0.0);
     // Same interpolation as the kernels: the logarithm, between nodes quadratic about the horizon.
     const double sine = std::sin(source_elevation_rad);
     const double root = sine < 0.0 ? std::sqrt(-sine / static_cast<double>(kLowestSine)) : std::sqrt(sine);
@@ -112,7 +112,7 @@ glm::dvec3 AirTables::ground_diffuse_xyz(double source_elevation_rad) const noex
         const float value = std::exp(node[i] + part * (node[i + kLanes] - node[i])) - kDarkness;
         irradiance[i] = std::max(0.0F, value);
     }
-    return sunlight_xyz(data_->model, irradiance);
+    return xyz_of_sunlight(data_->model, irradiance);
 }
 
 }  // namespace skyig::render::sky

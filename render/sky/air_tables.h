@@ -12,6 +12,12 @@ namespace skyig::render::sky {
 
 struct AirData;
 
+/// Which scatterings are followed.
+enum class Orders {
+    kFirst,  ///< light scattered once, and ground lit by the source alone
+    kAll,
+};
+
 /// Immutable; copies share the tables, so a table may be built on one thread and handed to another.
 ///
 /// Heights are metres above the model's ground (below 0 counts as the ground), elevations are geometric
@@ -20,11 +26,12 @@ struct AirData;
 class AirTables {
   public:
     /// Builds everything; the only member that allocates. About 100 ms on one core (AVX-512; AVX2 140,
-    /// portable 255), up to twice that in haze, which takes more orders. Transmittance errs by less than
-    /// 0.003 (p99).
-    explicit AirTables(const AirModel& model);
+    /// portable 255), up to twice that in haze, which takes more orders; the first order alone takes a
+    /// quarter. Transmittance errs by less than 0.003 (p99).
+    explicit AirTables(const AirModel& model, Orders orders = Orders::kAll);
 
     [[nodiscard]] const AirModel& model() const noexcept;
+    [[nodiscard]] Orders orders() const noexcept;
 
     /// Part of the light that reaches `height_m` from a small body at `elevation_rad`: through all the air
     /// along the path, falling smoothly to 0 over the width of the Sun's disc about the geometric horizon
@@ -38,7 +45,8 @@ class AirTables {
     [[nodiscard]] glm::dvec3 direct_sun_xyz(double height_m, double elevation_rad,
                                             double distance_au = 1.0) const noexcept;
 
-    /// XYZ illuminance (Y in lux) on level ground at height 0 from the sky alone, Sun at 1 AU.
+    /// XYZ illuminance (Y in lux) on level ground at height 0 from the sky alone, Sun at 1 AU; 0 where only
+    /// the first order is followed.
     [[nodiscard]] glm::dvec3 ground_diffuse_xyz(double source_elevation_rad) const noexcept;
 
     /// For sky views (same folder).

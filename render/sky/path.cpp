@@ -118,8 +118,8 @@ bool inside_shell(const Shell& shell, double eye_height_m, double cosine, double
 
 }  // namespace
 
-void lay_path(const AirData& data, double eye_height_m, double cosine, Side side, int steps_most,
-              Path& path) {
+void lay_path(const AirData& data, double eye_height_m, double cosine, Side side, int steps_most, Path& path,
+              double farthest_m) {
     path.count = 0;
     path.meets_ground = side == Side::kGround;
     const Ray ray{data, eye_height_m, cosine};
@@ -128,18 +128,25 @@ void lay_path(const AirData& data, double eye_height_m, double cosine, Side side
     const bool inside = inside_shell(data.shell, eye_height_m, cosine, enter_m, leave_m);
     const double eye_radius_m = data.shell.ground_radius_m + eye_height_m;
     if (side == Side::kGround) {
-        const double ground_m = data.shell.distance_to_ground_m(eye_height_m, cosine);
+        double ground_m = data.shell.distance_to_ground_m(eye_height_m, cosine);
+        path.meets_ground = ground_m <= farthest_m;
+        ground_m = std::min(ground_m, farthest_m);
         path.ground_eye_part = eye_radius_m / data.shell.ground_radius_m;
         path.ground_along_part = ground_m / data.shell.ground_radius_m;
         if (ground_m <= enter_m) return;
         add_steps(ray, ground_m, enter_m, steps_for(data.shell, ground_m - enter_m, steps_most), path);
         return;
     }
-    if (!inside) return;
+    leave_m = std::min(leave_m, farthest_m);
+    if (!inside || leave_m <= enter_m) return;
     const int count = steps_for(data.shell, leave_m - enter_m, steps_most);
     const double low_m = std::max(enter_m, -eye_radius_m * cosine);
     if (low_m <= enter_m) {
         add_steps(ray, enter_m, leave_m, count, path);
+        return;
+    }
+    if (low_m >= leave_m) {
+        add_steps(ray, leave_m, enter_m, count, path);
         return;
     }
     const double share = std::sqrt((low_m - enter_m) / (leave_m - enter_m));

@@ -1,6 +1,8 @@
 // Geometry of one view ray through the shell, cut into steps.
 #pragma once
 
+#include <limits>
+
 #include "render/sky/air_data.h"
 
 namespace skyig::render::sky {
@@ -12,7 +14,9 @@ enum class Side { kSky, kGround };
 /// above it for
 ///        Side::kSky (rounding at the horizon itself is absorbed)
 /// \param steps_most  at most as many as `path.steps` holds; at least 4
+/// \param farthest_m  where the path ends, if neither the ground nor the lid does before
 /// Fills everything in `path` but the weights.
-void lay_path(const AirData& data, double eye_height_m, double cosine, Side side, int steps_most, Path& path);
+void lay_path(const AirData& data, double eye_height_m, double cosine, Side side, int steps_most, Path& path,
+              double farthest_m = std::numeric_limits<double>::infinity());
 
 }  // namespace skyig::render::sky

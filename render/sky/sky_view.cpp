@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "render/sky/azimuth.h"
 #include "render/sky/path.h"
 #include "render/sky/phase.h"
 
@@ -20,14 +21,14 @@ constexpr double kLowestEyeM = 0.01;
 // is put together at look-up, so the nodes need not resolve it.
 using Node = std::array<float, 8>;
 
-// Rows over the angle from the horizon: angle = scale (cosh(growth w) - 1), w in 0..1. Quadratic at the
-// horizon, where ground distances go with the root of the angle, and a geometric progression further away.
-struct RowMap {
+// Rows over the angle from the horizon, w in 0..1: angle = scale (cosh(growth w) - 1), quadratic at the
+// start, where distances go with the root of the angle, and a geometric progression further away.
+struct Progression {
     double range_rad = 1.0;
     double scale_rad = 1.0;
     double growth = 1.0;
 
-    static RowMap over(double range_rad, double scale_rad) {
+    static Progression over(double range_rad, double scale_rad) {
         const double ratio = range_rad / scale_rad;
         return {range_rad, scale_rad, std::log1p(ratio + std::sqrt(ratio * (2.0 + ratio)))};
     }
@@ -41,18 +42,59 @@ struct RowMap {
     }
 };
 
+// From high up the air ends at an edge above the horizon: rows up to `edge_w` lie between the two, quadratic
+// at both, since paths grow with the root of the angle from the edge as well; the rest lies above it.
+struct EdgedRows {
+    double edge_rad = 1.0;
+    double edge_w = 1.0;
+    Progression above{};
+
+    [[nodiscard]] double angle_rad(double w) const noexcept {
+        if (w > edge_w) return edge_rad + above.angle_rad((w - edge_w) / (1.0 - edge_w));
+        const double sine = std::sin(kHalfPi * w / edge_w);
+        return edge_rad * sine * sine;
+    }
+    [[nodiscard]] float w(float angle_rad) const noexcept {
+        const auto edge = static_cast<float>(edge_rad);
+        const auto w_there = static_cast<float>(edge_w);
+        if (angle_rad > edge) return w_there + (1.0F - w_there) * above.w(angle_rad - edge);
+        return w_there * std::asin(std::sqrt(angle_rad / edge)) / static_cast<float>(kHalfPi);
+    }
+};
+
+// One turns into the other as the eye climbs, so that nowhere a metre of height moves the rows.
+struct RowMap {
+    Progression low{};
+    EdgedRows high{};
+    double high_share = 0.0;
+
+    [[nodiscard]] double range_rad() const noexcept { return low.range_rad; }
+    [[nodiscard]] double angle_rad(double w) const noexcept {
+        if (high_share <= 0.0) return low.angle_rad(w);
+        return (1.0 - high_share) * low.angle_rad(w) + high_share * high.angle_rad(w);
+    }
+    [[nodiscard]] float w(float angle_rad) const noexcept {
+        if (high_share <= 0.0) return low.w(angle_rad);
+        if (high_share >= 1.0) return high.w(angle_rad);
+        double below = 0.0;
+        double above = 1.0;
+        for (int i = 0; i < 20; ++i) {
+            const double middle = 0.5 * (below + above);
+            (this->angle_rad(middle) < static_cast<double>(angle_rad) ? below : above) = middle;
+        }
+        const double first = this->angle_rad(below);
+        const double step = this->angle_rad(above) - first;
+        const double part =
+            step > 0.0 ? std::clamp((static_cast<double>(angle_rad) - first) / step, 0.0, 1.0) : 0.0;
+        return static_cast<float>(below + part * (above - below));
+    }
+};
+
 std::array<float, 4> catmull_rom(float t) {
     const float t2 = t * t;
     const float t3 = t2 * t;
     return {0.5F * (2.0F * t2 - t - t3), 0.5F * (2.0F - 5.0F * t2 + 3.0F * t3),
             0.5F * (t + 4.0F * t2 - 3.0F * t3), 0.5F * (t3 - t2)};
-}
-
-// Absolute azimuth in 0..pi of any angle. The exact remainder is slow and seldom needed.
-float folded(float azimuth_rad) {
-    constexpr float kPi = std::numbers::pi_v<float>;
-    const float size = std::abs(azimuth_rad);
-    return size <= kPi ? size : std::min(std::abs(std::remainder(size, 2.0F * kPi)), kPi);
 }
 
 // A grid with one node of margin on every side, so that the cubic needs no special cases.
@@ -130,6 +172,7 @@ struct SkyView::State {
     [[nodiscard]] double elevation_rad(Side side, int row) const noexcept;
     void march(const Path& path, int count) noexcept;
     [[nodiscard]] Node node_of(const Lanes& all, const Lanes& hazy) const noexcept;
+    [[nodiscard]] SkyParts parts(Side side, float elevation_rad, float azimuth_rad) const noexcept;
     [[nodiscard]] glm::vec3 look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept;
 
     SkyViewSize size;
@@ -159,17 +202,27 @@ void SkyView::State::place_rows() noexcept {
     const double dip_rad = shell.dip_rad(eye_height_m);
     horizon_rad = -dip_rad;
     highest_rad = kHalfPi;
+    double edge_rad = 0.0;
     if (eye_height_m > shell.top_height_m) {
         const double excess = (eye_height_m - shell.top_height_m) *
                               (2.0 * shell.ground_radius_m + shell.top_height_m + eye_height_m);
         highest_rad = -std::atan2(std::sqrt(excess), shell.ground_radius_m + shell.top_height_m);
+        edge_rad = highest_rad;
     }
     const double horizon_m = std::sqrt(shell.excess_m2(eye_height_m));
     constexpr double kBendM = 8000.0;
-    const double sky_range = highest_rad - horizon_rad;
-    sky_map = RowMap::over(sky_range, std::min({0.035, kBendM / std::max(horizon_m, 1.0), 0.1 * sky_range}));
+    const double sky_range = kHalfPi + dip_rad;
+    sky_map.low =
+        Progression::over(sky_range, std::min({0.035, kBendM / std::max(horizon_m, 1.0), 0.1 * sky_range}));
+    // Whole rows to the edge, which then has one of its own.
+    const int last = size.sky_rows - 1;
+    sky_map.high.edge_rad = edge_rad - horizon_rad;
+    sky_map.high.edge_w = static_cast<double>(std::clamp(last * 7 / 10, 1, last - 1)) / last;
+    sky_map.high.above = Progression::over(kHalfPi - edge_rad, 0.03);
+    const double part = std::clamp((eye_height_m / shell.top_height_m - 0.4) / 0.55, 0.0, 1.0);
+    sky_map.high_share = part * part * (3.0 - 2.0 * part);
     const double ground_range = kHalfPi - dip_rad;
-    ground_map = RowMap::over(ground_range, std::clamp(0.5 * dip_rad, 2e-4, 0.1 * ground_range));
+    ground_map.low = Progression::over(ground_range, std::clamp(0.5 * dip_rad, 2e-4, 0.1 * ground_range));
 }
 
 double SkyView::State::elevation_rad(Side side, int row) const noexcept {
@@ -198,6 +251,7 @@ void SkyView::State::march(const Path& path, int count) noexcept {
     for (std::size_t j = 0; j < static_cast<std::size_t>(count); ++j) {
         kernels().add_first_order(data.medium, data.column_table(), path, sources[j], light[j], aerosol[j]);
     }
+    if (data.moments.empty()) return;
     kernels().add_higher_orders(data.medium, data.moment_table(), path, sources.data(), count, light.data());
 }
 
@@ -232,30 +286,35 @@ void SkyView::State::build_row(int row) noexcept {
     grid.close_row(line);
 }
 
-glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept {
-    if (air == nullptr || !std::isfinite(elevation_rad) || !std::isfinite(azimuth_rad))
-        return glm::vec3(0.0F);
+SkyParts SkyView::State::parts(Side side, float elevation_rad, float azimuth_rad) const noexcept {
+    if (air == nullptr || !std::isfinite(elevation_rad) || !std::isfinite(azimuth_rad)) return {};
     const auto horizon = static_cast<float>(horizon_rad);
-    const float around = folded(azimuth_rad);
     const float angle = side == Side::kSky ? elevation_rad - horizon : horizon - elevation_rad;
     const RowMap& map = side == Side::kSky ? sky_map : ground_map;
-    const auto range = static_cast<float>(map.range_rad);
-    if (side == Side::kSky && angle >= range && highest_rad < kHalfPi) return glm::vec3(0.0F);
-    const float within = std::clamp(angle, 0.0F, range);
+    const auto range = static_cast<float>(map.range_rad());
+    if (side == Side::kSky && highest_rad < kHalfPi && elevation_rad >= static_cast<float>(highest_rad))
+        return {};
     const Grid& grid = side == Side::kSky ? sky : ground;
-    const Node node =
-        grid.sample(map.w(within) * static_cast<float>(grid.rows() - 1),
-                    around * std::numbers::inv_pi_v<float> * static_cast<float>(size.columns - 1));
+    const Node node = grid.sample(
+        map.w(std::clamp(angle, 0.0F, range)) * static_cast<float>(grid.rows() - 1),
+        folded_azimuth(azimuth_rad) * std::numbers::inv_pi_v<float> * static_cast<float>(size.columns - 1));
+    return {glm::vec3(node[0], node[1], node[2]), glm::vec3(node[4], node[5], node[6])};
+}
 
-    const float elevation = side == Side::kSky ? horizon + within : horizon - within;
+glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept {
+    const SkyParts seen = parts(side, elevation_rad, azimuth_rad);
+    if (seen.haze == glm::vec3(0.0F) && seen.rest == glm::vec3(0.0F)) return glm::vec3(0.0F);
+    const auto horizon = static_cast<float>(horizon_rad);
+    constexpr auto kQuarterTurn = static_cast<float>(kHalfPi);
+    const float elevation = side == Side::kSky ? std::clamp(elevation_rad, horizon, kQuarterTurn)
+                                               : std::clamp(elevation_rad, -kQuarterTurn, horizon);
     const float sine = std::sin(elevation);
     const float level = std::sqrt(std::max(0.0F, 1.0F - sine * sine));
-    const float cosine =
-        sine * static_cast<float>(source_sine) + level * static_cast<float>(source_cosine) * std::cos(around);
+    const float cosine = sine * static_cast<float>(source_sine) +
+                         level * static_cast<float>(source_cosine) * std::cos(folded_azimuth(azimuth_rad));
     const float phase =
         cornette_shanks_phase(static_cast<float>(air->model.aerosol_g), std::clamp(cosine, -1.0F, 1.0F));
-    return glm::max(glm::vec3(node[0], node[1], node[2]) + phase * glm::vec3(node[4], node[5], node[6]),
-                    glm::vec3(0.0F));
+    return glm::max(seen.rest + phase * seen.haze, glm::vec3(0.0F));
 }
 
 SkyView::SkyView(const SkyViewSize& size) {
@@ -306,18 +365,20 @@ bool SkyView::complete() const noexcept {
     return state_->air != nullptr && state_->rows_done == state_->size.sky_rows + state_->size.ground_rows;
 }
 
-glm::vec3 SkyView::xyz(float elevation_rad, float relative_azimuth_rad) const noexcept {
-    return elevation_rad >= static_cast<float>(state_->horizon_rad)
-               ? xyz_above(elevation_rad, relative_azimuth_rad)
-               : xyz_below(elevation_rad, relative_azimuth_rad);
-}
-
 glm::vec3 SkyView::xyz_above(float elevation_rad, float relative_azimuth_rad) const noexcept {
     return state_->look_up(Side::kSky, elevation_rad, relative_azimuth_rad);
 }
 
 glm::vec3 SkyView::xyz_below(float elevation_rad, float relative_azimuth_rad) const noexcept {
     return state_->look_up(Side::kGround, elevation_rad, relative_azimuth_rad);
+}
+
+SkyParts SkyView::parts_above(float elevation_rad, float relative_azimuth_rad) const noexcept {
+    return state_->parts(Side::kSky, elevation_rad, relative_azimuth_rad);
+}
+
+SkyParts SkyView::parts_below(float elevation_rad, float relative_azimuth_rad) const noexcept {
+    return state_->parts(Side::kGround, elevation_rad, relative_azimuth_rad);
 }
 
 double SkyView::horizon_elevation_rad() const noexcept {

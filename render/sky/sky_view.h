@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "render/sky/air_tables.h"
+#include "render/sky/sky_radiance.h"
 
 namespace skyig::render::sky {
 
@@ -20,17 +21,22 @@ struct SkyViewSize {
     friend bool operator==(const SkyViewSize&, const SkyViewSize&) = default;
 };
 
-/// Values are XYZ with Y in cd/m2 for a source with the Sun's spectrum and irradiance at 1 AU: the caller
-/// scales them for distance, obscuration or the Moon. The disc itself and the night sky are not in them. A
-/// ray that misses the air is exactly black; no value is negative or not finite.
+/// Light of one direction: what the aerosol has scattered once, per unit of its phase function, and the rest.
+struct SkyParts {
+    glm::vec3 rest{0.0F};
+    glm::vec3 haze{0.0F};
+};
+
+/// Of the orders that the tables hold: `multi` with all of them, `single` with the first. A ray that misses
+/// the air is exactly black.
 ///
 /// begin() and build_rows() spread one build over frames; a view answers look-ups once build_rows() has
 /// returned true, and its answers do not depend on how the build was sliced. Double buffering is the
 /// caller's. Nothing but the constructor allocates (begin() keeps a shared pointer to the tables).
-class SkyView {
+class SkyView final : public SkyRadiance {
   public:
     explicit SkyView(const SkyViewSize& size = {});
-    ~SkyView();
+    ~SkyView() override;
     SkyView(const SkyView&) = delete;
     SkyView& operator=(const SkyView&) = delete;
     SkyView(SkyView&&) noexcept;
@@ -44,16 +50,15 @@ class SkyView {
     void build_all() noexcept;
     [[nodiscard]] bool complete() const noexcept;
 
-    /// \param elevation_rad  above the horizontal at the eye, -pi/2..pi/2 (clamped)
-    /// \param relative_azimuth_rad  from the source's azimuth, any finite value; an angle that is not finite
-    /// gets black
-    [[nodiscard]] glm::vec3 xyz(float elevation_rad, float relative_azimuth_rad) const noexcept;
-    /// The same from one side of the horizon only: a direction beyond it gets the value at the edge.
-    [[nodiscard]] glm::vec3 xyz_above(float elevation_rad, float relative_azimuth_rad) const noexcept;
-    [[nodiscard]] glm::vec3 xyz_below(float elevation_rad, float relative_azimuth_rad) const noexcept;
+    [[nodiscard]] glm::vec3 xyz_above(float elevation_rad,
+                                      float relative_azimuth_rad) const noexcept override;
+    [[nodiscard]] glm::vec3 xyz_below(float elevation_rad,
+                                      float relative_azimuth_rad) const noexcept override;
+    /// The same in two parts, so that what stands between two views can be made of both.
+    [[nodiscard]] SkyParts parts_above(float elevation_rad, float relative_azimuth_rad) const noexcept;
+    [[nodiscard]] SkyParts parts_below(float elevation_rad, float relative_azimuth_rad) const noexcept;
 
-    /// Elevation of the geometric horizon at the eye: minus its dip, <= 0.
-    [[nodiscard]] double horizon_elevation_rad() const noexcept;
+    [[nodiscard]] double horizon_elevation_rad() const noexcept override;
     [[nodiscard]] double eye_height_m() const noexcept;
     [[nodiscard]] double source_elevation_rad() const noexcept;
     [[nodiscard]] const SkyViewSize& size() const noexcept;

@@ -177,7 +177,8 @@ std::int64_t HttpServer::Loop::ends_ns(const Connection& connection) const noexc
 }
 
 bool HttpServer::Loop::gives_way(const Connection& connection, std::int64_t now_ns) const noexcept {
-    return connection.state != Connection::State::kWriting &&
+    if (connection.state == Connection::State::kEnding) return true;
+    return connection.state == Connection::State::kReading &&
            now_ns - connection.since_ns >= options_.gives_way_after.count() * kMs_ns;
 }
 

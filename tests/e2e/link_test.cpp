@@ -166,7 +166,7 @@ TEST(Link, StatusShowsTheHostLiveAndItsCountersRise) {
     EXPECT_EQ(before.at("sources").at(0).at("link"), "waiting");
     EXPECT_TRUE(before.at("authority").at("control").at("holder").is_null());
 
-    Process host(host_command(site, "4.0", "little", "2"));
+    Process host(host_command(site, "4.0", "little", "1.5"));
     ASSERT_TRUE(daemon.wait_for_err("set mode operate")) << daemon.err_so_far();
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     const Json first = status();

@@ -154,7 +154,7 @@ TEST(Skyigd, DrawsTheFramesAskedForIntoFiles) {
     const Json report = Json::parse(read_text(site.report_path));
     EXPECT_EQ(report.at("frames"), 6);
     EXPECT_EQ(report.at("images").at("written"), 2);
-    EXPECT_EQ(report.at("times").size(), 3U);
+    EXPECT_EQ(report.at("times").size(), 4U);
     EXPECT_EQ(report.at("gl_errors"), 0);
 }
 

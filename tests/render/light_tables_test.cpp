@@ -70,6 +70,55 @@ TEST(LightTables, NewAirIsTakenOverAfterAFixedNumberOfFrames) {
     EXPECT_NE(seen[0].front(), seen[0].back());
 }
 
+TEST(LightTables, AModelOfTheSameAirIsTakenOverAtOnce) {
+    Scene scene = make_scene(40, 180, -20, 0, 1000);
+    LightTables tables;
+    step(tables, scene);
+    scene.sky.model = SkyModel::kCie;
+    scene.sky.cie.type = 5;
+    const Held held = tables.held(scene);
+    EXPECT_TRUE(held.air_fresh);
+    EXPECT_FALSE(held.sun_sky_model);
+    const SkyLight light = step(tables, scene);
+    EXPECT_NEAR(luminance(light, 10, 0) / luminance(light, 60, 90), 1.0, 0.01);  // type 5 is uniform
+    EXPECT_EQ(tables.revision(), 2U);
+    step(tables, scene);
+    EXPECT_EQ(tables.revision(), 2U);
+}
+
+TEST(LightTables, AModelThatNeedsOtherAirWaitsForIt) {
+    Scene scene = make_scene(40, 180, -20, 0, 1000);
+    LightTables tables;
+    const double multi = luminance(step(tables, scene), 20, 90);
+    scene.sky.model = SkyModel::kSingle;
+    EXPECT_EQ(luminance(step(tables, scene), 20, 90), multi);
+    for (int i = 0; i < 60; ++i)
+        step(tables, scene);
+    LightTables cold;
+    const double single = luminance(step(cold, scene), 20, 90);
+    EXPECT_DOUBLE_EQ(luminance(step(tables, scene), 20, 90), single);
+    EXPECT_LT(single, 0.85 * multi);
+}
+
+TEST(LightTables, DayCycleFollowsTheSunAsOftenAsTheOthers) {
+    Scene scene = make_scene(20, 180, -20, 0, 1000);
+    scene.sky.model = SkyModel::kDayCycle;
+    LightTables tables;
+    double last = luminance(step(tables, scene), 30, 180);
+    double largest = 0.0;
+    for (double sun = 20.0; sun > 18.0; sun -= 0.004) {
+        scene = make_scene(sun, 180, -20, 0, 1000);
+        scene.sky.model = SkyModel::kDayCycle;
+        const double now = luminance(step(tables, scene), 30, 180);
+        largest = std::max(largest, std::abs(now / last - 1.0));
+        last = now;
+    }
+    std::printf("largest step of a frame: %.5f\n", largest);
+    // Passing a place of the Sun's path, the sky lags by the frames that its new table takes.
+    EXPECT_LT(largest, 0.005);
+    EXPECT_GT(tables.revision(), 100U);
+}
+
 TEST(LightTables, FullMoonLightsTheNightAFewHundredThousandthsOfTheDay) {
     LightTables night_tables;
     LightTables day_tables;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "server/from_config.h"
 #include "tests/server/world/host_bench.h"
 
 namespace skyig::server {
@@ -327,6 +328,25 @@ TEST(SceneBuilder, SceneDependsOnTheWorldAloneNotOnWhatWasBuiltBefore) {
     EXPECT_EQ(a.moon.direction_enu, b.moon.direction_enu);
     EXPECT_EQ(a.stars.enu_from_gcrs, b.stars.enu_from_gcrs);
     EXPECT_EQ(a.views[2].view_from_enu, b.views[2].view_from_enu);
+}
+
+TEST(SceneBuilder, SettingsOfTheSkyReachTheScene) {
+    config::Config config = site({50.0, 8.0, 0.0}, {});
+    config.sky.model = config::SkyModel::kWindlight;
+    config.sky.windlight.haze_density = 0.25;
+    HostBench bench(config);
+    SceneBuilder plain(ephemeris::Model::kSeries, {}, sky_settings(config.sky));
+    const render::Scene dated = plain.build(bench.world, 1);
+    EXPECT_EQ(dated.sky.model, render::SkyModel::kWindlight);
+    EXPECT_EQ(dated.sky.windlight.haze_density, 0.25);
+    EXPECT_EQ(dated.sun.direction_enu, scene_of(config).sun.direction_enu);
+    config.sky.windlight.sun_angle_deg = 30.0;
+    SceneBuilder placed(ephemeris::Model::kSeries, {}, sky_settings(config.sky));
+    EXPECT_NEAR(placed.build(bench.world, 1).sun.direction_enu.z, 0.5, 1e-12);
+    // The angles are windlight's alone.
+    config.sky.model = config::SkyModel::kMulti;
+    SceneBuilder other(ephemeris::Model::kSeries, {}, sky_settings(config.sky));
+    EXPECT_EQ(other.build(bench.world, 1).sun.direction_enu, dated.sun.direction_enu);
 }
 
 TEST(SceneBuilder, DatesBeyondTheEphemerisAreSaid) {

@@ -40,7 +40,7 @@ struct RangeErrors {
     Errors chromaticity;
 };
 
-// Truth rows worse than 3 % themselves say nothing; the lid's own edge (60 km) is a line of its own.
+// Truth rows worse than 3 % themselves say nothing.
 RangeErrors measure(const Table& table, const AirTables& tables, const Range& range, SkyView& view) {
     RangeErrors errors;
     double built_deg = -1.0;
@@ -55,7 +55,6 @@ RangeErrors measure(const Table& table, const AirTables& tables, const Range& ra
             built_deg = sun_deg;
         }
         const double elevation = (90.0 - table.number(row, "view_zenith_deg")) * kDeg;
-        if (view.eye_height_m() > 100.0e3 && elevation > -18.4 * kDeg) continue;
         const glm::dvec3 xyz = view.xyz(static_cast<float>(elevation),
                                         static_cast<float>(table.number(row, "rel_azimuth_deg") * kDeg));
         const double sum = xyz.x + xyz.y + xyz.z;

@@ -141,7 +141,7 @@ class FrameLoopTest : public ::testing::Test {
         world_ = std::make_unique<world::World>(config_, start_time(config_.start, clock_), log_);
         loop_ = std::make_unique<FrameLoop>(
             config_,
-            FrameLoopParts{clock_, log_, pace_, link_, *world_, painter_, images, nullptr, status_.get()},
+            FrameLoopParts{clock_, log_, pace_, link_, *world_, painter_, images, nullptr, nullptr, status_.get()},
             frames, every);
         return *loop_;
     }

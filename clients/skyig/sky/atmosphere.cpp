@@ -1,0 +1,42 @@
+#include "clients/skyig/sky/atmosphere.h"
+
+#include "config/air_file.h"
+#include "server/from_config.h"
+
+namespace skyig::clients::sky {
+namespace {
+
+render::sky::AirModel planet_model(const config::Planet& planet) {
+    return render::sky::planet_air({.ground_radius_m = planet.ground_radius_m,
+                                    .top_height_m = planet.top_height_m,
+                                    .molecule_height_m = planet.molecule_height_m,
+                                    .rayleigh_per_m = planet.rayleigh_per_m,
+                                    .aerosol_height_m = planet.aerosol_height_m,
+                                    .aerosol_per_m = planet.aerosol_per_m,
+                                    .aerosol_angstrom = planet.aerosol_angstrom,
+                                    .aerosol_albedo_blue = planet.aerosol_albedo_blue,
+                                    .aerosol_albedo_red = planet.aerosol_albedo_red,
+                                    .aerosol_g = planet.aerosol_g,
+                                    .ozone_dobson = planet.ozone_dobson,
+                                    .ground_albedo_blue = planet.ground_albedo_blue,
+                                    .ground_albedo_red = planet.ground_albedo_red});
+}
+
+}  // namespace
+
+Atmosphere load_atmosphere(const std::string& name) {
+    if (name == "A") return {render::sky::atmosphere_a(), {}};
+    if (name == "B") return {render::sky::atmosphere_b(), {}};
+    const config::AirFileResult read = config::load_air_file(name);
+    if (!read) {
+        AtmosphereErrors errors;
+        for (const config::ConfigError& error : read.errors)
+            errors.lines.push_back(config::to_text(error));
+        throw errors;
+    }
+    const config::AirFile& file = *read.file;
+    return {file.planet ? planet_model(*file.planet) : render::sky::air_model(server::air_settings(file.air)),
+            server::sky_settings(file.sky)};
+}
+
+}  // namespace skyig::clients::sky

@@ -1,0 +1,29 @@
+// The air that a tool is told to work in: one of the truth tables', or a description in a file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/sky/air_model.h"
+#include "render/sky_settings.h"
+
+namespace skyig::clients::sky {
+
+struct Atmosphere {
+    render::sky::AirModel air;
+    /// Parameters of the models, from the file's [sky].
+    render::SkySettings sky;
+};
+
+/// Every error of a file, a line each.
+struct AtmosphereErrors {
+    std::vector<std::string> lines;
+};
+
+/// \param name  "A", "B" (the media of the truth tables), or a TOML file with [air] and [sky] as in a
+/// configuration
+///              or with [planet]
+/// \throws AtmosphereErrors
+[[nodiscard]] Atmosphere load_atmosphere(const std::string& name);
+
+}  // namespace skyig::clients::sky
