@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/dome_bend.h"
 #include "render/geometry.h"
 #include "render/sky/staleness.h"
 
@@ -40,11 +41,10 @@ struct TableSize {
     double error_codes;
 };
 constexpr std::array<TableSize, 3> kTables{
-    {{{24, 12, 21, 32}, 5.0}, {{40, 20, 33, 48}, 1.3}, {{56, 28, 49, 64}, 0.5}}};
+    {{{24, 12, 21, 32}, 12.0}, {{40, 20, 33, 48}, 4.9}, {{56, 28, 49, 64}, 2.8}}};
 
-// The table's share of the picture's error is not interpolation that the eye could find as edges: it may take
-// three times the budget of the dome.
-constexpr double kTableShare = 3.0;
+// The table errs smoothly over degrees, where no eye finds an edge: it may err by this many budgets.
+constexpr double kTableShare = 10.0;
 
 struct Verdict {
     bool needed;
@@ -193,12 +193,14 @@ DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& qu
             std::clamp(held.ground_rows, least.ground_rows, ample.ground_rows)};
 }
 
-void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2) noexcept {
+void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept {
     plan.star_limit_mag = faintest_visible_mag(background_cd_m2) + kStarMargin_mag;
+    const double brightest_mag = brightest_point_mag(scene);
+    const bool outshone = plan.star_limit_mag < brightest_mag || half_code_mag < brightest_mag;
     if (plan.forced[static_cast<std::size_t>(Pass::kStars)]) plan.star_limit_mag = kNoStarIsFainter_mag;
     if (!scene.stars.enabled || scene.stars.intensity <= 0.0) {
         put(plan, Pass::kStars, {false, "switched off"});
-    } else if (plan.star_limit_mag < brightest_point_mag(scene)) {
+    } else if (outshone) {
         put(plan, Pass::kStars, {false, "the sky outshines every star and planet"});
     } else {
         put(plan, Pass::kStars, {true, "some stars outshine the sky"});

@@ -6,38 +6,15 @@
 #include <cstddef>
 #include <string_view>
 
-#include "render/dome_bend.h"
+#include "render/quality.h"
 #include "render/scene.h"
 #include "render/sky/refraction.h"
 #include "render/sky/sky_view.h"
 
 namespace skyig::render {
 
-enum class Pass {
-    kAirTables,  ///< optical columns and multiple scattering of a new air
-    kSunSky,     ///< direction table of sunlit air
-    kMoonSky,    ///< direction table of moonlit air
-    kDome,       ///< smooth light of all directions, toned at the vertices
-    kStars,
-    kCorona,  ///< what is left of the Sun in a total eclipse
-    kSunDisc,
-    kMoonDisc,
-};
-inline constexpr std::size_t kPassCount = 8;
-
-[[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
-
-/// How far the picture may be off, and what is done for measurements.
-struct Quality {
-    /// Largest error that smooth light may have by being drawn coarser than pixel by pixel, 8-bit display
-    /// codes, 0.1..8.
-    double error_codes = 0.5;
-    /// Passes that run even where they would not show. With Pass::kStars no star is too faint.
-    std::bitset<kPassCount> forced;
-};
-
-/// Step of luminance from one code to the next at middle grey on a display of gamma 2.2, percent.
-inline constexpr double kCode_pct = 1.7;
+class DomeBend;
+struct DomeSize;
 
 /// When a pass costs.
 enum class Cost { kNewAir, kNewTable, kChannel };
@@ -115,7 +92,8 @@ struct Plan {
 [[nodiscard]] DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& quality) noexcept;
 
 /// Decides on the stars and planets. \param background_cd_m2  the darkest sky that they stand before
-void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2) noexcept;
+/// \param half_code_mag  fainter ones change no picture
+void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept;
 
 /// Faintest star that a practised eye sees before a background, V magnitude (Schaefer 1990, after Knoll et
 /// al. 1946).

@@ -20,7 +20,6 @@ namespace {
 // Points whose centre lies outside the picture by less than half a footprint still show, also where the
 // frustum's edge spreads the footprint over more pixels.
 constexpr int kStarGuard_px = 16;
-constexpr double kStarSigma_px = 0.7;
 
 // Directions at infinity: z is 0, which no depth range clips; w is the distance along the view axis.
 glm::dmat4 clip_from_view(const Frustum& frustum, double guard_x, double guard_y) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "render/eye/tone_curve.h"
+#include "render/star_field.h"
 
 namespace skyig::render {
 
@@ -35,12 +36,12 @@ void SkyFrame::prepare(const Scene& scene, double pixel_rad) {
     plan_ = make_plan(scene, tables_.held(scene), refraction, quality_);
     tables_.update(scene, plan_);
     light_ = tables_.light(scene, plan_, refraction);
-    adapt(scene);
+    adapt(scene, pixel_rad);
     refresh_dome(pixel_rad);
     tell_dome();
 }
 
-void SkyFrame::adapt(const Scene& scene) {
+void SkyFrame::adapt(const Scene& scene, double pixel_rad) {
     std::array<double, eye::kProbeCount> luminance{};
     double darkest_sky = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
@@ -54,7 +55,7 @@ void SkyFrame::adapt(const Scene& scene) {
     const double now_cd_m2 =
         adaptation_.update(eye::adaptation_target_cd_m2(luminance), scene.time_s, tables_.jumped(), display_);
     tone_ = eye::tone_parameters(display_, now_cd_m2);
-    plan_stars(plan_, scene, darkest_sky);
+    plan_stars(plan_, scene, darkest_sky, half_code_mag(darkest_sky, tone_, pixel_rad));
 }
 
 void SkyFrame::refresh_dome(double pixel_rad) {

@@ -44,7 +44,7 @@ class SkyFrame {
     [[nodiscard]] glm::dvec3 exact_colour(const glm::dvec3& direction_enu) const;
 
   private:
-    void adapt(const Scene& scene);
+    void adapt(const Scene& scene, double pixel_rad);
     void refresh_dome(double pixel_rad);
     void tell_dome() noexcept;
 

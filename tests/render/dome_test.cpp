@@ -241,6 +241,39 @@ TEST(Dome, NewAirFadesInAndEndsAtItsOwnColours) {
     }
 }
 
+// Everything that the plan drops of smooth light, drawn all the same.
+TEST(Dome, LightThatThePlanDropsWouldChangeNoCodeByHalf) {
+    Quality all;
+    all.forced.set(static_cast<std::size_t>(Pass::kSunSky));
+    all.forced.set(static_cast<std::size_t>(Pass::kMoonSky));
+    SkyFrame planned({}, {});
+    SkyFrame forced({}, all);
+    double worst = 0.0;
+    double time_s = 0.0;
+    for (const double height_m : {0.0, 3e3, 12e3, 400e3}) {
+        for (const double sun_deg : {60.0, 5.0, -4.0, -9.0, -22.0, -40.0}) {
+            for (const double moon_deg : {50.0, -8.0, -30.0}) {
+                Scene scene = make_scene(sun_deg, 120.0, moon_deg, 250.0, height_m);
+                scene.time_s = time_s += 100.0;
+                planned.prepare(scene, kPixel_rad);
+                forced.prepare(scene, kPixel_rad);
+                for (const double elevation : {-60.0, -20.0, -15.0, -3.0, -0.5, 0.5, 3.0, 10.0, 30.0, 80.0}) {
+                    for (const double azimuth : {120.0, 160.0, 250.0, 300.0}) {
+                        const glm::dvec3 d = tests::at(elevation, azimuth);
+                        const glm::dvec3 off =
+                            glm::abs(planned.exact_colour(d) - forced.exact_colour(d)) * 255.0;
+                        const double largest = std::max({off.x, off.y, off.z});
+                        worst = std::max(worst, largest);
+                        EXPECT_LE(largest, 0.5) << "sun " << sun_deg << ", moon " << moon_deg << ", "
+                                                << height_m << " m, at " << elevation << " " << azimuth;
+                    }
+                }
+            }
+        }
+    }
+    std::printf("light that was dropped: at most %.3f codes\n", worst);
+}
+
 TEST(BendProfile, IntervalsOfACurveErrAlike) {
     BendProfile profile(400);
     const auto x = profile.positions_rad();
