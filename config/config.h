@@ -58,6 +58,19 @@ struct Air {
     /// 800..1100
     double pressure_hpa = 1013.25;
     double humidity_pct = 50.0;
+    /// 0..60; where it blows from, clockwise from true north, -360..360.
+    double wind_m_s = 0.0;
+    double wind_from_deg = 0.0;
+};
+
+enum class Surface { kLand, kSea };
+
+/// What lies below the air. Snow holds until a host says how much lies.
+struct Ground {
+    Surface surface = Surface::kLand;
+    /// Of bare land in daylight, 0..1; not given: grass and soil.
+    std::optional<double> albedo;
+    double snow_pct = 0.0;
 };
 
 /// From cheap to good.
@@ -132,6 +145,7 @@ struct Config {
     std::vector<Source> sources;
     Start start;
     Air air;
+    Ground ground;
     Sky sky;
     Ephemeris ephemeris;
     Display display;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kToneNames{"hybrid", "linear"};
 constexpr std::array<std::string_view, 3> kModelNames{"almanac", "erfa", "series"};
+constexpr std::array<std::string_view, 2> kSurfaceNames{"land", "sea"};
 constexpr std::array<std::string_view, 1> kOutputNames{"headless"};
 
 void read_version(TableReader& root) {
@@ -118,6 +119,16 @@ void read_eye(TableReader table, Eye& eye) {
     table.finish();
 }
 
+void read_ground(TableReader table, Ground& ground) {
+    std::size_t index = 0;
+    if (table.choice("surface", index, kSurfaceNames) != nullptr)
+        ground.surface = static_cast<Surface>(index);
+    double albedo = 0.0;
+    if (table.number("albedo", albedo, {0.0, 1.0, {}}) != nullptr) ground.albedo = albedo;
+    table.number("snow_pct", ground.snow_pct, {0.0, 100.0, "%"});
+    table.finish();
+}
+
 void read_output(TableReader table, Output& output) {
     std::size_t index = 0;
     if (table.choice("kind", index, kOutputNames) != nullptr) output.kind = static_cast<OutputKind>(index);
@@ -148,6 +159,8 @@ void read_air(TableReader table, Air& air) {
     table.number("temperature_c", air.temperature_c, {-90.0, 60.0, "degrees Celsius"});
     table.number("pressure_hpa", air.pressure_hpa, {800.0, 1100.0, "hPa"});
     table.number("humidity_pct", air.humidity_pct, {0.0, 100.0, "%"});
+    table.number("wind_m_s", air.wind_m_s, {0.0, 60.0, "m/s"});
+    table.number("wind_from_deg", air.wind_from_deg, {-360.0, 360.0, "degrees"});
     table.finish();
 }
 
@@ -161,6 +174,7 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_sources(root, errors, config.host, config.sources);
     read_start(root.table("start"), config.start);
     read_air(root.table("air"), config.air);
+    read_ground(root.table("ground"), config.ground);
     read_sky(root.table("sky"), config.sky);
     read_ephemeris(root.table("ephemeris"), config.ephemeris);
     read_display(root.table("display"), config.display);

@@ -47,6 +47,7 @@ DomeLayout dome_layout(const SkyLight& light, double edge_rad, double adaptation
     layout.edge_rad = edge_rad;
     layout.adaptation_cd_m2 = adaptation_cd_m2;
     layout.air = air;
+    layout.sea = light.sea != nullptr;
     const bool sun = light.sun.view != nullptr;
     const bool moon = light.moon.view != nullptr;
     const LitAir& first = sun ? light.sun : light.moon;
@@ -79,7 +80,7 @@ bool still_serves(const DomeLayout& held, const DomeLayout& wanted) noexcept {
 }
 
 bool still_fits(const DomeLayout& held, const DomeLayout& wanted) noexcept {
-    return held.air == wanted.air &&
+    return held.air == wanted.air && held.sea == wanted.sea &&
            std::abs(held.adaptation_cd_m2 - wanted.adaptation_cd_m2) < 0.1 * held.adaptation_cd_m2;
 }
 

@@ -39,6 +39,8 @@ struct DomeLayout {
     double adaptation_cd_m2 = 1.0;
     /// LightTables::air_in_use()
     std::uint64_t air = 0;
+    /// The ground mirrors the sources.
+    bool sea = false;
 };
 
 [[nodiscard]] DomeLayout dome_layout(const SkyLight& light, double edge_rad, double adaptation_cd_m2,
@@ -47,7 +49,8 @@ struct DomeLayout {
 /// Whether a mesh laid out for `held` still serves `wanted`: no source off by 0.3 deg, the horizon by a tenth
 /// of its dip.
 [[nodiscard]] bool still_serves(const DomeLayout& held, const DomeLayout& wanted) noexcept;
-/// Whether its nodes still stand where the light bends: the same air, the adaptation within a tenth.
+/// Whether its nodes still stand where the light bends: the same air and ground, the adaptation within a
+/// tenth.
 [[nodiscard]] bool still_fits(const DomeLayout& held, const DomeLayout& wanted) noexcept;
 
 class Dome {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "render/eye/tone_curve.h"
 
@@ -13,16 +14,18 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kSkySamples = 192;
-constexpr std::size_t kGroundSamples = 96;
-constexpr std::size_t kColumnSamples = 257;
+constexpr std::size_t kGroundSamples = 160;
+constexpr std::size_t kColumnSamples = 321;
 
 // The finest thing beside the horizon: some haze seen at a few tenths of its scale height.
 constexpr double kFinest_rad = 0.001;
+// The finest thing beside a source's azimuth: the path that low light lays on calm water.
+constexpr double kFinestPath_rad = 0.005;
 
 // Azimuths of the meridians, from each source; elevations of the circles above the horizon.
 constexpr std::array<double, 7> kMeridians_rad{0.0, 0.1, 0.3, 0.7, 1.2, 2.0, kPi};
-constexpr std::array<double, 12> kCircles_rad{-0.5, -0.1, -0.01, 0.0, 0.006, 0.02,
-                                              0.04, 0.08, 0.16,  0.3, 0.5,   0.8};
+constexpr std::array<double, 13> kCircles_rad{-0.5, -0.2, -0.06, -0.01, 0.0, 0.006, 0.02,
+                                              0.04, 0.08, 0.16,  0.3,   0.5, 0.8};
 
 // Of the largest error, what a profile may plan for: the profiles miss the worst places, which lie between
 // them.
@@ -36,11 +39,43 @@ double spread(double share, double range_rad) {
     return kFinest_rad * std::expm1(share * std::log1p(range_rad / kFinest_rad));
 }
 
+double largest_of(const glm::dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
 double second_derivative(const glm::dvec3& before, const glm::dvec3& here, const glm::dvec3& after,
                          double step_before, double step_after) {
     const glm::dvec3 bend =
         ((after - here) / step_after - (here - before) / step_before) * (2.0 / (step_before + step_after));
-    return std::max({std::abs(bend.x), std::abs(bend.y), std::abs(bend.z)});
+    return largest_of(bend);
+}
+
+// Round the circle from -pi to pi, symmetrical about 0, crowding there and about a second azimuth.
+void spread_columns(std::span<double> azimuths_rad, std::optional<double> second_rad) {
+    constexpr int kSteps = 4096;
+    const auto density = [&](int step) {
+        const double a = kPi * ((2.0 * step + 1.0) / kSteps - 1.0);
+        const double other =
+            second_rad ? 0.25 / (std::abs(std::remainder(a - *second_rad, 2.0 * kPi)) + kFinestPath_rad)
+                       : 0.0;
+        return 1.0 + 0.25 / (std::abs(a) + kFinestPath_rad) + other;
+    };
+    double whole = 0.0;
+    for (int step = 0; step < kSteps; ++step)
+        whole += density(step);
+    const auto last = static_cast<double>(azimuths_rad.size() - 1);
+    double sum = 0.0;
+    std::size_t next = 1;
+    for (int step = 0; step < kSteps; ++step) {
+        const double here = density(step);
+        while (next + 1 < azimuths_rad.size() && sum + here >= whole * static_cast<double>(next) / last) {
+            const double share = (whole * static_cast<double>(next) / last - sum) / here;
+            azimuths_rad[next++] = kPi * (2.0 * (step + share) / kSteps - 1.0);
+        }
+        sum += here;
+    }
+    azimuths_rad.front() = -kPi;
+    azimuths_rad.back() = kPi;
 }
 
 // Lines of the profiles as seen from both sources if there are two.
@@ -108,10 +143,7 @@ void BendProfile::place(std::span<double> nodes_rad) const noexcept {
 }
 
 DomeBend::DomeBend()
-    : sky_(kSkySamples), ground_(kGroundSamples), columns_(kColumnSamples), codes_(kColumnSamples) {
-    for (std::size_t i = 0; i < kColumnSamples; ++i)
-        columns_.positions_rad()[i] = kPi * (2.0 * static_cast<double>(i) / (kColumnSamples - 1) - 1.0);
-}
+    : sky_(kSkySamples), ground_(kGroundSamples), columns_(kColumnSamples), codes_(kColumnSamples) {}
 
 void DomeBend::measure(const SkyLight& light, const shaders64::ToneParameters& tone, double azimuth_rad,
                        double edge_rad) {
@@ -143,28 +175,38 @@ void DomeBend::measure(const SkyLight& light, const shaders64::ToneParameters& t
     along(sky_, 0.5 * edge_rad, 0.5 * kPi - horizon, Side::kSky);
     along(ground_, -0.5 * kPi - horizon, -0.5 * edge_rad, Side::kGround);
 
+    measure_columns(light, tone32, azimuth_rad, edge_rad);
+}
+
+void DomeBend::measure_columns(const SkyLight& light, const shaders32::ToneParameters& tone,
+                               double azimuth_rad, double edge_rad) {
+    const double horizon = light.horizon_elevation_rad;
+    const bool mirrored = light.sun.view == nullptr || light.moon.view == nullptr;
+    const double second = light.moon.source.azimuth_rad - light.sun.source.azimuth_rad;
     columns_.clear();
     const auto x = columns_.positions_rad();
-    const double step = x[1] - x[0];
-    const bool mirrored = light.sun.view == nullptr || light.moon.view == nullptr;
-    const std::size_t first = mirrored ? kColumnSamples / 2 - 1 : 0;
+    spread_columns(x, mirrored ? std::nullopt : std::optional(second));
+    const std::size_t first = mirrored ? x.size() / 2 - 1 : 0;
+    const auto code = [&](double above_rad, std::size_t i, Side side) {
+        const glm::vec3 rgb = light.rgb_cd_m2(horizon + above_rad, azimuth_rad + x[i], side);
+        return 255.0 * glm::dvec3{shaders32::shown(rgb, tone)};
+    };
     for (const double above : kCircles_rad) {
         const Side side = above < 0.0 ? Side::kGround : Side::kSky;
         const double elevation = horizon + above;
         if (std::abs(elevation) > 1.4) continue;
         // A straight edge between two columns is a great circle and leaves the circle of equal elevation.
         const double leaves = std::abs(std::sin(elevation) * std::cos(elevation));
-        const double up = 0.05 * std::abs(above) + 1e-4;
+        const double up = (0.05 * std::abs(above) + 1e-4) * (side == Side::kSky ? 1.0 : -1.0);
         for (std::size_t i = first; i < x.size(); ++i)
-            codes_[i] = code(above, azimuth_rad + x[i], side);
+            codes_[i] = code(above, i, side);
         for (std::size_t i = first + 1; i + 1 < x.size(); ++i) {
-            const glm::dvec3 slope =
-                (code(above + (side == Side::kSky ? up : -up), azimuth_rad + x[i], side) - codes_[i]) / up;
-            const double steep = std::max({std::abs(slope.x), std::abs(slope.y), std::abs(slope.z)});
+            const double steep = largest_of(code(above + up, i, side) - codes_[i]) / std::abs(up);
             const double bend =
-                second_derivative(codes_[i - 1], codes_[i], codes_[i + 1], step, step) + leaves * steep;
+                second_derivative(codes_[i - 1], codes_[i], codes_[i + 1], x[i] - x[i - 1], x[i + 1] - x[i]) +
+                leaves * steep;
             columns_.add(i, bend);
-            if (mirrored) columns_.add(kColumnSamples - 1 - i, bend);
+            if (mirrored) columns_.add(x.size() - 1 - i, bend);
         }
     }
     // The horizon's own edge shall not leave its place by more than a quarter of its softness.

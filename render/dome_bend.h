@@ -49,7 +49,7 @@ class BendProfile {
 };
 
 /// The bends of a frame's light: along some meridians above and below the horizon, and along some circles of
-/// equal elevation. 3,400 look-ups by one light source, twice as many by two.
+/// equal elevation. 6,500 look-ups by one light source, twice as many by two.
 class DomeBend {
   public:
     DomeBend();
@@ -71,6 +71,9 @@ class DomeBend {
     static constexpr DomeSize kMost{192, 112, 64};
 
   private:
+    void measure_columns(const SkyLight& light, const shaders32::ToneParameters& tone, double azimuth_rad,
+                         double edge_rad);
+
     BendProfile sky_;
     BendProfile ground_;
     BendProfile columns_;

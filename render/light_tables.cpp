@@ -20,6 +20,14 @@ constexpr double kFromBeyondShadow = 2e-4;
 // shaders::sun_in_shadow().
 constexpr double kFromUmbra = 4e-5;
 
+// Slopes that differ by less are drawn alike.
+bool alike(const sky::SlopeVariance& a, const sky::SlopeVariance& b) {
+    constexpr double kStep = 0.01;
+    const double least = kStep * std::min(a.total(), b.total());
+    return std::abs(a.east_east - b.east_east) < least && std::abs(a.north_north - b.north_north) < least &&
+           std::abs(a.east_north - b.east_north) < least;
+}
+
 double sunlight_lux(const sky::AirModel& model) {
     double sum = 0.0;
     for (const float part : model.sunlight_xyz_lux[1])
@@ -41,12 +49,12 @@ Held LightTables::held(const Scene& scene) const noexcept {
     held.air_valid = air_.has_value();
     // Compared as the model sees it: temperature, or a visibility beyond its range, makes no new air.
     held.air_fresh = air_.has_value() && air_->orders() == sky::models::orders_of(scene.sky.model) &&
-                     air_->model() == sky::air_model(scene.air);
+                     air_->model() == sky::air_model(scene.air, scene.ground);
     const SkySettings wanted = fitting(scene.sky);
     held.sun_sky_valid = sun_.front_made.air != 0 && sun_.front_made.air == air_revision_;
     held.moon_sky_valid = moon_.front_made.air != 0 && moon_.front_made.air == air_revision_;
-    held.sun_sky_model = sun_.front_made.sky == wanted;
-    held.moon_sky_model = moon_.front_made.sky == wanted;
+    held.sun_sky_model = sun_.front_made.sky == wanted && same_sea(sun_.front_made, scene);
+    held.moon_sky_model = moon_.front_made.sky == wanted && same_sea(moon_.front_made, scene);
     held.sun_sky_elevation_rad = sun_.front_made.elevation_rad;
     held.sun_sky_height_m = sun_.front_made.height_m;
     held.moon_sky_elevation_rad = moon_.front_made.elevation_rad;
@@ -60,7 +68,7 @@ SkySettings LightTables::fitting(const SkySettings& asked) const noexcept {
 
 void LightTables::update_air(const Scene& scene, const Plan& plan) {
     if (!air_) {
-        air_.emplace(sky::air_model(scene.air), sky::models::orders_of(scene.sky.model));
+        air_.emplace(sky::air_model(scene.air, scene.ground), sky::models::orders_of(scene.sky.model));
         ++air_revision_;
         return;
     }
@@ -70,22 +78,45 @@ void LightTables::update_air(const Scene& scene, const Plan& plan) {
         if (auto tables = builder_.take()) {
             air_ = std::move(tables);
             ++air_revision_;
+            ++revision_;
         }
         return;
     }
     if (!plan.needs(Pass::kAirTables)) return;
-    builder_.request(sky::air_model(scene.air), sky::models::orders_of(scene.sky.model));
+    builder_.request(sky::air_model(scene.air, scene.ground), sky::models::orders_of(scene.sky.model));
     next_air_age_ = 0;
+}
+
+void LightTables::update_sea(const Scene& scene) noexcept {
+    if (air_->model().ground_mirror_albedo <= 0.0F) {
+        sea_.reset();
+        return;
+    }
+    sky::SeaSurface surface(sky::slope_variance(scene.ground, scene.sea.all_waves()));
+    if (!sea_ || !alike(sea_->variance(), surface.variance())) {
+        sea_ = surface;
+        ++revision_;
+    }
+}
+
+bool LightTables::same_sea(const Made& made, const Scene& scene) const noexcept {
+    if (made.air == 0 || !air_) return true;
+    if (air_->model().ground_mirror_albedo <= 0.0F) return !made.sea;
+    const sky::SeaSurface surface(sky::slope_variance(scene.ground, scene.sea.all_waves()));
+    return made.sea && alike(*made.sea, surface.variance());
 }
 
 void LightTables::update_view(View& view, const Wanted& wanted) {
     const auto begin = [&] {
         view.back.begin(sky_, *air_, wanted.height_m, wanted.elevation_rad, wanted.by_sun);
-        view.back_made = {air_revision_, sky_, wanted.elevation_rad, wanted.height_m};
+        if (sea_) view.back_sea.begin(*air_, *sea_, wanted.height_m, wanted.elevation_rad);
+        view.back_made = {air_revision_, sky_, sea_ ? std::optional(sea_->variance()) : std::nullopt,
+                          wanted.elevation_rad, wanted.height_m};
         view.building = true;
     };
     const auto take_over = [&] {
         std::swap(view.front, view.back);
+        std::swap(view.front_sea, view.back_sea);
         view.front_made = view.back_made;
         view.building = false;
         ++revision_;
@@ -100,6 +131,7 @@ void LightTables::update_view(View& view, const Wanted& wanted) {
         if (!wanted.matters) view.front_made.air = 0;
         if (wanted.matters) {
             view.back.build_all();
+            if (view.back_made.sea) view.back_sea.build_rows(sky::SeaView::kRows);
             take_over();
             jumped_ = true;
             return;
@@ -107,12 +139,16 @@ void LightTables::update_view(View& view, const Wanted& wanted) {
     } else if (wanted.needed && !view.building) {
         begin();
     }
-    if (view.building && view.back.build_rows(kRowsAFrame)) take_over();
+    if (!view.building) return;
+    const bool sky_done = view.back.build_rows(kRowsAFrame);
+    const bool sea_done = !view.back_made.sea || view.back_sea.build_rows(kSeaRowsAFrame);
+    if (sky_done && sea_done) take_over();
 }
 
 void LightTables::update(const Scene& scene, const Plan& plan) {
     jumped_ = false;
     update_air(scene, plan);
+    update_sea(scene);
     sky_ = fitting(scene.sky);
     const double sun_rad = horizontal_of(scene.sun.direction_enu).elevation_rad;
     const double moon_rad = horizontal_of(scene.moon.direction_enu).elevation_rad;
@@ -128,18 +164,24 @@ SkyLight LightTables::light(const Scene& scene, const Plan& plan,
     light.eye_height_m = scene.eye.height_m;
     light.horizon_elevation_rad = refraction.horizon_elevation_rad();
     light.straight_horizon_rad = horizon_elevation_rad(scene.eye.height_m);
+    sky::Spectrum diffuse = air_->model().ground_albedo;
+    for (float& albedo : diffuse)
+        albedo -= air_->model().ground_mirror_albedo;
+    light.ground_albedo = sky::luminous_albedo(air_->model(), diffuse);
+    light.sea = sea_ ? &*sea_ : nullptr;
+    const auto reflected = [](const View& view) { return view.front_made.sea ? &view.front_sea : nullptr; };
     if (plan.sun_share > 0.0 && sun_.front_made.air != 0) {
         const double unobscured = std::max(scene.sun.unobscured, kFromBeyondShadow);
         const double share = plan.sun_share * unobscured / (scene.sun.distance_au * scene.sun.distance_au);
         light.sun = {&sun_.front, horizontal_of(scene.sun.direction_enu),
-                     glm::vec3{static_cast<float>(share)}};
+                     glm::vec3{static_cast<float>(share)}, reflected(sun_)};
     }
     if (plan.moon_share > 0.0 && moon_.front_made.air != 0) {
         const double share = plan.moon_share * std::max(scene.moon.sunlit, kFromUmbra) *
                              night::moon_illuminance_lux(scene.moon.phase_angle_rad, scene.moon.distance_km) /
                              sunlight_lux(air_->model());
         light.moon = {&moon_.front, horizontal_of(scene.moon.direction_enu),
-                      glm::vec3{night::moon_tint_xyz() * share}};
+                      glm::vec3{night::moon_tint_xyz() * share}, reflected(moon_)};
     }
     return light;
 }

@@ -14,6 +14,8 @@
 #include "render/sky/air_tables.h"
 #include "render/sky/models/day_sky.h"
 #include "render/sky/refraction.h"
+#include "render/sky/sea_surface.h"
+#include "render/sky/sea_view.h"
 #include "render/sky_light.h"
 
 namespace skyig::render {
@@ -23,6 +25,7 @@ class LightTables {
     /// Frames from the first sight of new air to its use, and rows of a direction table built in one frame.
     static constexpr std::uint64_t kAirLatencyFrames = 30;
     static constexpr int kRowsAFrame = 10;
+    static constexpr int kSeaRowsAFrame = 4;
 
     /// \param size  of the direction tables
     explicit LightTables(const sky::SkyViewSize& size = {});
@@ -63,6 +66,7 @@ class LightTables {
     struct Made {
         std::uint64_t air = 0;  ///< revision of the air, 0: never made
         SkySettings sky;
+        std::optional<sky::SlopeVariance> sea;  ///< none over land
         double elevation_rad = 0.0;
         double height_m = 0.0;
     };
@@ -71,6 +75,8 @@ class LightTables {
 
         sky::models::DaySky front;
         sky::models::DaySky back;
+        sky::SeaView front_sea;
+        sky::SeaView back_sea;
         Made front_made;
         Made back_made;
         bool building = false;
@@ -84,11 +90,14 @@ class LightTables {
         double height_m = 0.0;
     };
     void update_air(const Scene& scene, const Plan& plan);
+    void update_sea(const Scene& scene) noexcept;
+    [[nodiscard]] bool same_sea(const Made& made, const Scene& scene) const noexcept;
     void update_view(View& view, const Wanted& wanted);
     [[nodiscard]] SkySettings fitting(const SkySettings& asked) const noexcept;
 
     sky::Refraction refraction_;
     std::optional<sky::AirTables> air_;
+    std::optional<sky::SeaSurface> sea_;  // none as long as the air lies over land
     SkySettings sky_;  // the scene's, or those before it until the air for its model is there
     std::uint64_t air_revision_ = 0;
     AirBuilder builder_;

@@ -55,7 +55,7 @@ Verdict plan_sky(bool lights, bool valid, bool same_model, double now_rad, doubl
                  bool height_stale) {
     if (!lights) return {false, "the source is too low to light the air"};
     if (!valid) return {true, "no table of this air yet"};
-    if (!same_model) return {true, "the sky's model or its parameters have changed"};
+    if (!same_model) return {true, "the sky's model, its parameters or the sea have changed"};
     if (std::abs(now_rad - held_rad) > kStaleAngle_rad) return {true, "the source has moved by 0.01 deg"};
     if (height_stale) return {true, "the eye has changed height"};
     return {false, "the table is fresh"};

@@ -43,7 +43,7 @@ struct Held {
     bool air_valid = false;
     bool air_fresh = false;
     bool sun_sky_valid = false;
-    bool sun_sky_model = true;  ///< made by the scene's model with its parameters
+    bool sun_sky_model = true;  ///< made by the scene's model with its parameters, over its sea
     double sun_sky_elevation_rad = 0.0;
     double sun_sky_height_m = 0.0;
     bool moon_sky_valid = false;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 
 #include "render/channel.h"
@@ -83,6 +84,21 @@ struct Air {
     friend bool operator==(const Air&, const Air&) = default;
 };
 
+/// What lies below the air: land as far as the eye reaches, or sea.
+struct Ground {
+    enum class Kind : std::uint8_t { kLand, kSea };
+    Kind kind = Kind::kLand;
+    /// Of bare land in daylight, 0..1; not given: grass and soil.
+    std::optional<double> albedo;
+    /// Part of the land that lies under snow, 0..1.
+    double snow = 0.0;
+    /// Roughens the sea; at about 10 m, where it blows from clockwise from true north.
+    double wind_m_s = 0.0;
+    double wind_from_rad = 0.0;
+
+    friend bool operator==(const Ground&, const Ground&) = default;
+};
+
 /// One train of waves, as long as it is not broken: crests in parallel lines.
 struct Wave {
     /// From trough to crest.
@@ -137,6 +153,7 @@ struct Scene {
     /// Mercury, Venus, Mars, Jupiter, Saturn; switched and faded with the stars.
     std::array<Planet, kPlanetCount> planets{};
     Air air;
+    Ground ground;
     Sea sea;
     /// Which model draws the day sky.
     SkySettings sky;

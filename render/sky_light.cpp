@@ -1,6 +1,8 @@
 #include "render/sky_light.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/colour.h"
 #include "render/night/night_floor.h"
@@ -13,8 +15,26 @@ glm::vec3 xyz_of(const LitAir& lit, double above_horizon_rad, double azimuth_rad
     if (lit.view == nullptr) return glm::vec3{0.0F};
     const auto elevation = static_cast<float>(lit.view->horizon_elevation_rad() + above_horizon_rad);
     const auto azimuth = static_cast<float>(azimuth_rad - lit.source.azimuth_rad);
-    return lit.scale_xyz *
-           (ground ? lit.view->xyz_below(elevation, azimuth) : lit.view->xyz_above(elevation, azimuth));
+    if (!ground) return lit.scale_xyz * lit.view->xyz_above(elevation, azimuth);
+    glm::vec3 xyz = lit.view->xyz_below(elevation, azimuth);
+    if (lit.sea != nullptr) {
+        xyz += lit.sea->xyz(lit.sea->horizon_elevation_rad() + above_horizon_rad, azimuth_rad,
+                            lit.source.azimuth_rad);
+    }
+    return lit.scale_xyz * xyz;
+}
+
+// Of the surface under the dark sky, where the straight ray meets it.
+double dark_ground_cd_m2(const SkyLight& light, double straight_rad) {
+    const double diffuse = light.ground_albedo * night::kDarkSky_lux / std::numbers::pi;
+    if (light.sea == nullptr) return diffuse;
+    const double level = std::cos(straight_rad) * (1.0 + std::max(light.eye_height_m, 0.0) / kEarthRadius_m);
+    const double up = std::sqrt(std::max(0.0, (1.0 - level) * (1.0 + level)));
+    // Waves lift what a level mirror would show of the horizon.
+    const double mirrored_rad =
+        std::asin(std::min(1.0, std::hypot(up, std::sqrt(light.sea->variance().total()))));
+    return diffuse + light.sea->mean_reflectance(up) *
+                         static_cast<double>(night::night_floor_xyz(mirrored_rad, 0.0, 0.0, false, 0.0).y);
 }
 
 }  // namespace
@@ -35,7 +55,8 @@ glm::vec3 SkyLight::rgb_cd_m2(double elevation_rad, double azimuth_rad, Side sid
         side == Side::kGround || (side == Side::kByElevation && elevation_rad < horizon_elevation_rad);
     return rec709_from_xyz(xyz_of(sun, above_rad, azimuth_rad, ground) +
                            xyz_of(moon, above_rad, azimuth_rad, ground) +
-                           night::night_floor_xyz(straight_rad, straight_horizon_rad, eye_height_m, ground));
+                           night::night_floor_xyz(straight_rad, straight_horizon_rad, eye_height_m, ground,
+                                                  ground ? dark_ground_cd_m2(*this, straight_rad) : 0.0));
 }
 
 }  // namespace skyig::render

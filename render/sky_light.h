@@ -6,6 +6,8 @@
 
 #include "render/geometry.h"
 #include "render/sky/refraction.h"
+#include "render/sky/sea_surface.h"
+#include "render/sky/sea_view.h"
 #include "render/sky/sky_radiance.h"
 
 namespace skyig::render {
@@ -16,6 +18,8 @@ struct LitAir {
     Horizontal source;                       ///< where it stands in this frame; the table may lag by 0.01 deg
     /// Factors on X, Y, Z of the table (distance, obscuration, the Moon's share and tint).
     glm::vec3 scale_xyz{0.0F};
+    /// What the sea reflects of it and of its sky; null over land. It lags as `view` does.
+    const sky::SeaView* sea = nullptr;
 };
 
 /// Which side of the horizon a direction is taken from when it lies on the edge.
@@ -32,6 +36,10 @@ struct SkyLight {
     /// little lower or higher is asked at the same angle from its own horizon.
     double straight_horizon_rad = 0.0;
     double eye_height_m = 0.0;
+    /// What the ground, or the water below the sea's surface, sends back of the dark sky's light, 0..1.
+    double ground_albedo = 0.1;
+    /// Null over land.
+    const sky::SeaSurface* sea = nullptr;
 
     /// Elevation of the straight ray that stands in the tables for the curved one seen at `elevation_rad`: it
     /// comes as near to the ground. The same above the level; on the horizon the straight horizon (0.2 deg

@@ -41,7 +41,8 @@ FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, 
       image_every_(image_every),
       answers_(config.host),
       inbox_(config, parts.world, parts.log),
-      scenes_(ephemeris_model(config), std::move(orientation), sky_settings(config.sky)),
+      scenes_(ephemeris_model(config), std::move(orientation), sky_settings(config.sky),
+              ground_settings(config.ground)),
       times_(config.channels.size()) {}
 
 void FrameLoop::warm_up() {

@@ -74,33 +74,33 @@ render::WindlightSettings windlight_settings(const config::WindlightSky& look) n
             .east_angle_rad = glm::radians(look.east_angle_deg)};
 }
 
-render::SkyModel sky_model(config::SkyModel model) noexcept {
-    switch (model) {
-        case config::SkyModel::kSingle:
-            return render::SkyModel::kSingle;
-        case config::SkyModel::kDayCycle:
-            return render::SkyModel::kDayCycle;
-        case config::SkyModel::kCie:
-            return render::SkyModel::kCie;
-        case config::SkyModel::kPreetham:
-            return render::SkyModel::kPreetham;
-        case config::SkyModel::kWindlight:
-            return render::SkyModel::kWindlight;
-        case config::SkyModel::kMulti:
-            break;
-    }
-    return render::SkyModel::kMulti;
-}
+static_assert(
+    static_cast<int>(config::SkyModel::kMulti) == static_cast<int>(render::SkyModel::kMulti) &&
+        static_cast<int>(config::SkyModel::kSingle) == static_cast<int>(render::SkyModel::kSingle) &&
+        static_cast<int>(config::SkyModel::kDayCycle) == static_cast<int>(render::SkyModel::kDayCycle) &&
+        static_cast<int>(config::SkyModel::kCie) == static_cast<int>(render::SkyModel::kCie) &&
+        static_cast<int>(config::SkyModel::kPreetham) == static_cast<int>(render::SkyModel::kPreetham) &&
+        static_cast<int>(config::SkyModel::kWindlight) == static_cast<int>(render::SkyModel::kWindlight),
+    "one order of models in settings and scene");
 
 }  // namespace
 
 render::SkySettings sky_settings(const config::Sky& sky) noexcept {
     return {
-        .model = sky_model(sky.model),
+        .model = static_cast<render::SkyModel>(sky.model),
         .day_cycle = {.desaturation = sky.day_cycle.desaturation},
         .cie = {.type = sky.cie.type, .zenith_luminance_cd_m2 = sky.cie.zenith_luminance_cd_m2},
         .preetham = {.turbidity = sky.preetham.turbidity, .zenith_of_multi = sky.preetham.zenith_of_multi},
         .windlight = windlight_settings(sky.windlight)};
+}
+
+render::Ground ground_settings(const config::Ground& ground) noexcept {
+    render::Ground settings;
+    settings.kind =
+        ground.surface == config::Surface::kSea ? render::Ground::Kind::kSea : render::Ground::Kind::kLand;
+    settings.albedo = ground.albedo;
+    settings.snow = ground.snow_pct / 100.0;
+    return settings;
 }
 
 render::Air air_settings(const config::Air& air) noexcept {

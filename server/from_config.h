@@ -30,6 +30,9 @@ namespace skyig::server {
 
 [[nodiscard]] render::SkySettings sky_settings(const config::Sky& sky) noexcept;
 
+/// What the settings say of the ground; wind and waves are the world's.
+[[nodiscard]] render::Ground ground_settings(const config::Ground& ground) noexcept;
+
 /// Air of a description without a world around it.
 [[nodiscard]] render::Air air_settings(const config::Air& air) noexcept;
 

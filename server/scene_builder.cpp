@@ -111,12 +111,23 @@ render::Wave wave_of(const world::WaveAt& at) noexcept {
 
 static_assert(world::WavesAt::kMost <= render::kMaxWaves, "every wave at a point has a place in the scene");
 
-render::Sea sea_of(const world::World& world, const render::Eye& eye) noexcept {
+world::RegionsAt regions_at(const world::World& world, const render::Eye& eye) noexcept {
+    return world.surfaces().is_regional()
+               ? world::RegionsAt(world.weather(), world::GroundPoint(eye.latitude_deg, eye.longitude_deg))
+               : world::RegionsAt();
+}
+
+render::Ground ground_of(const render::Ground& settings, const world::World& world,
+                         const world::RegionsAt& regions) noexcept {
+    render::Ground ground = settings;
+    ground.snow = world::snow_cover(world.surfaces(), regions).value_or(settings.snow);
+    ground.wind_m_s = world.air().wind_horizontal_m_s;
+    ground.wind_from_rad = world.air().wind_from_deg * kRadPerDeg;
+    return ground;
+}
+
+render::Sea sea_of(const world::World& world, const world::RegionsAt& regions) noexcept {
     const world::SurfaceStore& surfaces = world.surfaces();
-    const world::RegionsAt regions =
-        surfaces.is_regional()
-            ? world::RegionsAt(world.weather(), world::GroundPoint(eye.latitude_deg, eye.longitude_deg))
-            : world::RegionsAt();
     const world::SeaState state = world::sea_at(surfaces, regions);
     render::Sea sea;
     sea.height_m = state.height_m;
@@ -151,7 +162,9 @@ render::Scene SceneBuilder::build(const world::World& world, std::uint64_t frame
     const ephemeris::Geodetic eye{scene.eye.latitude_deg, scene.eye.longitude_deg, scene.eye.height_m};
     light(clockwork_.state(instant_, eye), world.celestial(), scene);
     scene.air = air_of(world.air());
-    scene.sea = sea_of(world, scene.eye);
+    const world::RegionsAt regions = regions_at(world, scene.eye);
+    scene.ground = ground_of(ground_, world, regions);
+    scene.sea = sea_of(world, regions);
     scene.sky = sky_;
     if (sky_.model == render::SkyModel::kWindlight && sky_.windlight.places_sun)
         scene.sun.direction_enu = render::placed_sun_enu(sky_.windlight);

@@ -32,11 +32,12 @@ class SceneBuilder {
   public:
     /// \param model  which series place the bodies
     /// \param orientation  UT1 and pole as measured; without rows the built-in tables hold
+    /// \param ground  below the air; its wind is the world's, its snow too once a host tells of some
     /// \param sky  what draws the day sky; where it says the Sun's place, the Sun stands there
     explicit SceneBuilder(ephemeris::Model model = ephemeris::Model::kSeries,
-                          ephemeris::EarthOrientation orientation = {},
-                          const render::SkySettings& sky = {}) noexcept
-        : orientation_(std::move(orientation)), sky_(sky), clockwork_(model) {}
+                          ephemeris::EarthOrientation orientation = {}, const render::SkySettings& sky = {},
+                          const render::Ground& ground = {}) noexcept
+        : orientation_(std::move(orientation)), sky_(sky), ground_(ground), clockwork_(model) {}
 
     [[nodiscard]] render::Scene build(const world::World& world, std::uint64_t frame_number);
 
@@ -55,6 +56,7 @@ class SceneBuilder {
 
     ephemeris::EarthOrientation orientation_;
     render::SkySettings sky_;
+    render::Ground ground_;
     ephemeris::OffsetsOfDay offsets_;
     ephemeris::SkyClockwork clockwork_;
     /// Of the frame at hand: east-north-up at the ownship from that at the eye, row by row as the library

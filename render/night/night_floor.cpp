@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "render/geometry.h"
 
@@ -17,9 +16,6 @@ constexpr double kScaleHeight_m = 8e3;
 // XYZ of a star of B-V 1.0, the colour index of the dark sky.
 constexpr glm::dvec3 kFloorColour{0.986, 1.0, 0.811};
 
-// Luminance of level ground of albedo 0.1 under the whole dark sky (8e-4 lux).
-constexpr double kDarkGround_cd_m2 = 0.1 * 8e-4 / std::numbers::pi;
-
 // Of the light that the air takes from a ray it gives this part back from all around: the sky is everywhere.
 constexpr double kScatteredBack = 0.6;
 
@@ -30,7 +26,7 @@ double part_that_passes(double air_mass) {
 }  // namespace
 
 glm::vec3 night_floor_xyz(double elevation_rad, double horizon_elevation_rad, double eye_height_m,
-                          bool ground) noexcept {
+                          bool ground, double ground_cd_m2) noexcept {
     const double height_m = std::max(eye_height_m, 0.0);
     const double thinned = std::exp(-height_m / kScaleHeight_m);
     // Between the dipped horizon and the level the path is as long as along the level.
@@ -42,7 +38,7 @@ glm::vec3 night_floor_xyz(double elevation_rad, double horizon_elevation_rad, do
     const double scattered = kScatteredBack * (kAirglowZenith_cd_m2 + kBeyondAir_cd_m2);
     if (ground) {
         const double passes = part_that_passes((1.0 - thinned) * air_mass);
-        return glm::vec3{kFloorColour * (kDarkGround_cd_m2 * passes + scattered * (1.0 - passes))};
+        return glm::vec3{kFloorColour * (ground_cd_m2 * passes + scattered * (1.0 - passes))};
     }
     const double ratio =
         (kEarthRadius_m + std::min(height_m, kAirglowHeight_m)) / (kEarthRadius_m + kAirglowHeight_m);

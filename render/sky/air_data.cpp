@@ -109,6 +109,11 @@ double moment_sine(int node) noexcept {
     return root * root;
 }
 
+void leave_mirror_out(AirData& data) noexcept {
+    for (float& albedo : data.medium.albedo_over_pi.v)
+        albedo -= data.model.ground_mirror_albedo * std::numbers::inv_pi_v<float>;
+}
+
 void build_medium(const AirModel& model, AirData& data) {
     data.model = model;
     data.shell = {model.ground_radius_m, model.top_height_m};

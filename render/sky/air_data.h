@@ -31,6 +31,8 @@ struct AirData {
     std::vector<float> columns;
     std::vector<float> moments;
     std::vector<float> log_ground;
+    /// Sky over the sea (sea_sky.h); none over land.
+    std::vector<float> sea_sky;
     AirModel model;
 
     [[nodiscard]] Densities densities(double height_m) const noexcept;
@@ -62,5 +64,7 @@ void build_columns(AirData& data);
 void keep_forward_peak(AirData& data) noexcept;
 /// Needs the rest.
 void build_moments(AirData& data);
+/// After the moments: the ground that is seen does not show what it mirrors.
+void leave_mirror_out(AirData& data) noexcept;
 
 }  // namespace skyig::render::sky

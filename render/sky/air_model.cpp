@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/sky/spectra.h"
 
@@ -106,6 +107,41 @@ double ground_albedo(double nm) {
     return 0.6 * sample_at(kGrassAlbedo, nm) + 0.4 * soil;
 }
 
+// Clean snow loses a little towards the red (Wiscombe and Warren 1980); sastrugi and age take a tenth.
+double snow_albedo(double nm) {
+    return 0.87 - 0.04 * std::clamp((nm - 400.0) / 300.0, 0.0, 1.0);
+}
+
+// Light that comes back out of clear ocean: pi times the remote-sensing reflectance.
+double water_albedo(double nm) {
+    constexpr std::array<double, 9> kNm = {390, 412, 443, 490, 510, 555, 620, 670, 705};
+    constexpr std::array<double, 9> kPerSr = {6.8e-3, 7.0e-3, 6.5e-3, 5.5e-3, 3.5e-3,
+                                              1.7e-3, 4e-4,   1.5e-4, 5e-5};
+    std::size_t k = 1;
+    while (k + 1 < kNm.size() && nm > kNm[k])
+        ++k;
+    const double part = std::clamp((nm - kNm[k - 1]) / (kNm[k] - kNm[k - 1]), 0.0, 1.0);
+    return std::numbers::pi * (kPerSr[k - 1] + part * (kPerSr[k] - kPerSr[k - 1]));
+}
+
+void lay_land(const Ground& ground, AirModel& model) {
+    model.ground_albedo = spectrum_of(ground_albedo);
+    const double bare = luminous_albedo(model, model.ground_albedo);
+    const double scale = std::clamp(finite_or(ground.albedo.value_or(bare), bare), 0.0, 1.0) / bare;
+    const double snow = std::clamp(finite_or(ground.snow, 0.0), 0.0, 1.0);
+    model.ground_albedo = spectrum_of([&](double nm) {
+        const double land = std::min(scale * ground_albedo(nm), 1.0);
+        return land + snow * (snow_albedo(nm) - land);
+    });
+}
+
+void lay_sea(AirModel& model) {
+    model.ground_mirror_albedo = 0.05F;
+    model.ground_albedo = spectrum_of(water_albedo);
+    for (float& albedo : model.ground_albedo)
+        albedo += model.ground_mirror_albedo;
+}
+
 // Clear air holds fine particles only (steep spectrum), mist holds droplets (grey).
 double angstrom_exponent(double visibility_m) {
     const double part = std::log(visibility_m / kMinVisibilityM) / std::log(50.0e3 / kMinVisibilityM);
@@ -125,7 +161,7 @@ bool operator==(const AirModel& a, const AirModel& b) noexcept {
            a.rayleigh_per_m == b.rayleigh_per_m && a.aerosol_extinction_per_m == b.aerosol_extinction_per_m &&
            a.aerosol_scattering_per_m == b.aerosol_scattering_per_m &&
            a.ozone_peak_per_m == b.ozone_peak_per_m && a.ground_albedo == b.ground_albedo &&
-           a.sunlight_xyz_lux == b.sunlight_xyz_lux;
+           a.ground_mirror_albedo == b.ground_mirror_albedo && a.sunlight_xyz_lux == b.sunlight_xyz_lux;
 }
 
 double column_above_m(const DensityProfile& profile, double height_m) noexcept {
@@ -151,6 +187,12 @@ glm::dvec3 xyz_of_sunlight(const AirModel& model, const Spectrum& part) noexcept
                                                          model.sunlight_xyz_lux[2][i]);
     }
     return glm::max(sum, glm::dvec3(0.0));
+}
+
+double luminous_albedo(const AirModel& model, const Spectrum& albedo) noexcept {
+    Spectrum whole;
+    whole.fill(1.0F);
+    return xyz_of_sunlight(model, albedo).y / xyz_of_sunlight(model, whole).y;
 }
 
 AirModel atmosphere_a() {
@@ -181,7 +223,7 @@ AirModel atmosphere_b() {
     return model;
 }
 
-AirModel air_model(const Air& air) {
+AirModel air_model(const Air& air, const Ground& ground) {
     const Air defaults;
     const double visibility_m =
         std::clamp(finite_or(air.visibility_m, defaults.visibility_m), kMinVisibilityM, kMaxVisibilityM);
@@ -194,7 +236,11 @@ AirModel air_model(const Air& air) {
     const double per_m = pressure_hpa / 1013.25 / column_above_m(model.molecules, 0.0);
     model.rayleigh_per_m = spectrum_of([&](double nm) { return per_m * rayleigh_depth(nm); });
     model.ozone_peak_per_m = spectrum_of([](double nm) { return sample_at(kOzonePeak, nm); });
-    model.ground_albedo = spectrum_of(ground_albedo);
+    if (ground.kind == Ground::Kind::kSea) {
+        lay_sea(model);
+    } else {
+        lay_land(ground, model);
+    }
     if (!air.model_enabled) return model;
 
     const double total_per_m = -std::log(contrast) / visibility_m;

@@ -44,6 +44,9 @@ struct AirModel {
     Spectrum aerosol_scattering_per_m{};
     Spectrum ozone_peak_per_m{};
     Spectrum ground_albedo{};
+    /// The part of it that a wavy mirror reflects, the same at all wavelengths: it lights the air, but is
+    /// left out where the ground is seen (SeaView adds it). 0 on land.
+    float ground_mirror_albedo = 0.0F;
     /// What each wavelength carries of the Sun's XYZ illuminance (lux scale, 1 AU, outside the air): X, Y, Z
     /// rows. Sums to 1.32e5 lx in Y. Radiances in this folder are per unit of solar irradiance (1/sr), so XYZ
     /// in cd/m2 = sum over i of sunlight_xyz_lux[.][i] * transfer[i].
@@ -75,11 +78,18 @@ inline constexpr double kMaxVisibilityM = 250.0e3;
 /// The air of a scene: US Standard Atmosphere 1976 molecules (scaled with the pressure), 300 DU of ozone,
 /// aerosol with a scale height of 1.2 km (less below 4 km of visibility, in proportion: mist is shallow)
 /// whose extinction at the ground brings the total at 550 nm to -ln(contrast) / visibility, a dull
-/// grass-and-soil ground (luminous albedo about 0.1), lid at 120 km, ground at 6371 km. `model_enabled ==
-/// false`: molecules and ozone only. Any input is legal: what is not finite counts as the default, what is
-/// out of range is clamped (visibility as above, contrast 0.01..0.2, pressure 850..1085 hPa), and the model
-/// depends continuously on each number. Temperature and humidity do not enter.
-[[nodiscard]] AirModel air_model(const Air& air);
+/// grass-and-soil ground (luminous albedo about 0.1) unless `ground` says otherwise, lid at 120 km, ground at
+/// 6371 km. `model_enabled == false`: molecules and ozone only. Any input is legal: what is not finite counts
+/// as the default, what is out of range is clamped (visibility as above, contrast 0.01..0.2, pressure
+/// 850..1085 hPa), and the model depends continuously on each number. Temperature and humidity do not enter.
+///
+/// Land of another albedo has the same colour; snow is nearly white (albedo 0.85). The sea sends back what
+/// its surface reflects of a day's light (0.05) and blue light from below: open ocean, remote-sensing
+/// reflectances that the band ratio OC4 (O'Reilly et al. 1998) reads as 0.15 mg/m3 of chlorophyll.
+[[nodiscard]] AirModel air_model(const Air& air, const Ground& ground = {});
+
+/// What a surface of this albedo reflects of sunlight's illuminance.
+[[nodiscard]] double luminous_albedo(const AirModel& model, const Spectrum& albedo) noexcept;
 
 /// Another planet's air, or a simple one of this: exponential molecules and dust, optics at 550 nm with
 /// simple spectra. The defaults are the Earth's.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "render/sky/air_data.h"
+#include "render/sky/sea_sky.h"
 
 namespace skyig::render::sky {
 namespace {
@@ -43,6 +44,10 @@ AirTables::AirTables(const AirModel& model, Orders orders) {
         build_moments(*data);
     } else {
         keep_forward_peak(*data);
+    }
+    if (model.ground_mirror_albedo > 0.0F) {
+        leave_mirror_out(*data);
+        build_sea_sky(*data);
     }
     data_ = std::move(data);
 }

@@ -63,6 +63,8 @@ RayLight ray_light(const AirTables& tables, const RayQuery& query) noexcept {
     Path path{};
     path.steps = steps.data();
     lay_path(data, eye_m, sine, side, kSteps, path, std::max(query.distance_m, 0.0));
+    const bool meets_ground = path.meets_ground;
+    path.meets_ground = meets_ground && query.ground;
     kernels().weigh(data.medium, path);
     const Source toward{std::sin(source), std::clamp(between, -1.0, 1.0),
                         static_cast<float>(rayleigh_phase(between))};
@@ -77,7 +79,7 @@ RayLight ray_light(const AirTables& tables, const RayQuery& query) noexcept {
         transfer[i] = all.v[i] + phase * haze.v[i];
     light.xyz = xyz_of_sunlight(data.model, transfer);
     light.transmittance = sharp_transmittance(data.medium, path);
-    light.meets_ground = path.meets_ground;
+    light.meets_ground = meets_ground;
     return light;
 }
 

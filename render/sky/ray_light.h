@@ -17,6 +17,8 @@ struct RayQuery {
     double relative_azimuth_rad = 0.0;
     /// To the object; the ray ends at the ground if that is nearer. >= 0.
     double distance_m = std::numeric_limits<double>::infinity();
+    /// False: the air alone, also where the ray ends at the ground; what stands there is the caller's.
+    bool ground = true;
 };
 
 struct RayLight {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/sky/azimuth.h"
+#include "render/sky/direction_grid.h"
 #include "render/sky/path.h"
 #include "render/sky/phase.h"
 
@@ -16,31 +17,6 @@ namespace {
 
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
 constexpr double kLowestEyeM = 0.01;
-
-// X, Y, Z of everything but aerosol single scattering, then of that without its phase function: the aureole
-// is put together at look-up, so the nodes need not resolve it.
-using Node = std::array<float, 8>;
-
-// Rows over the angle from the horizon, w in 0..1: angle = scale (cosh(growth w) - 1), quadratic at the
-// start, where distances go with the root of the angle, and a geometric progression further away.
-struct Progression {
-    double range_rad = 1.0;
-    double scale_rad = 1.0;
-    double growth = 1.0;
-
-    static Progression over(double range_rad, double scale_rad) {
-        const double ratio = range_rad / scale_rad;
-        return {range_rad, scale_rad, std::log1p(ratio + std::sqrt(ratio * (2.0 + ratio)))};
-    }
-    [[nodiscard]] double angle_rad(double w) const noexcept {
-        const double half = std::sinh(0.5 * growth * w);
-        return std::min(range_rad, 2.0 * scale_rad * half * half);
-    }
-    [[nodiscard]] float w(float angle_rad) const noexcept {
-        const float y = angle_rad / static_cast<float>(scale_rad);
-        return std::log(1.0F + (y + std::sqrt(y * (2.0F + y)))) / static_cast<float>(growth);
-    }
-};
 
 // From high up the air ends at an edge above the horizon: rows up to `edge_w` lie between the two, quadratic
 // at both, since paths grow with the root of the angle from the edge as well; the rest lies above it.
@@ -90,74 +66,6 @@ struct RowMap {
     }
 };
 
-std::array<float, 4> catmull_rom(float t) {
-    const float t2 = t * t;
-    const float t3 = t2 * t;
-    return {0.5F * (2.0F * t2 - t - t3), 0.5F * (2.0F - 5.0F * t2 + 3.0F * t3),
-            0.5F * (t + 4.0F * t2 - 3.0F * t3), 0.5F * (t3 - t2)};
-}
-
-// A grid with one node of margin on every side, so that the cubic needs no special cases.
-class Grid {
-  public:
-    Grid(int rows, int columns)
-        : rows_(rows),
-          columns_(columns),
-          nodes_(static_cast<std::size_t>(rows + 2) * static_cast<std::size_t>(columns + 2)) {}
-
-    [[nodiscard]] Node& at(int row, int column) noexcept { return nodes_[index(row, column)]; }
-    [[nodiscard]] int rows() const noexcept { return rows_; }
-
-    // Mirror about the source's azimuth and its opposite.
-    void close_row(int row) noexcept {
-        at(row, -1) = at(row, 1);
-        at(row, columns_) = at(row, columns_ - 2);
-    }
-    // `even`: the first row is a mirror, too (smooth in the square of the row); otherwise all margins
-    // continue quadratically.
-    void close(bool even) noexcept {
-        for (int column = -1; column <= columns_; ++column) {
-            if (even) {
-                at(-1, column) = at(1, column);
-            } else {
-                extend(at(0, column), at(1, column), at(2, column), at(-1, column));
-            }
-            extend(at(rows_ - 1, column), at(rows_ - 2, column), at(rows_ - 3, column), at(rows_, column));
-        }
-    }
-    [[nodiscard]] Node sample(float row, float column) const noexcept {
-        const int i = std::clamp(static_cast<int>(row), 0, rows_ - 2);
-        const int j = std::clamp(static_cast<int>(column), 0, columns_ - 2);
-        const auto by_row = catmull_rom(std::clamp(row - static_cast<float>(i), 0.0F, 1.0F));
-        const auto by_column = catmull_rom(std::clamp(column - static_cast<float>(j), 0.0F, 1.0F));
-        Node sum{};
-        for (int a = 0; a < 4; ++a) {
-            const Node* line = &nodes_[index(i - 1 + a, j - 1)];
-            for (std::size_t b = 0; b < 4; ++b) {
-                const float weight = by_row[static_cast<std::size_t>(a)] * by_column[b];
-                for (std::size_t k = 0; k < sum.size(); ++k)
-                    sum[k] += weight * line[b][k];
-            }
-        }
-        return sum;
-    }
-
-  private:
-    [[nodiscard]] std::size_t index(int row, int column) const noexcept {
-        return static_cast<std::size_t>(row + 1) * static_cast<std::size_t>(columns_ + 2) +
-               static_cast<std::size_t>(column + 1);
-    }
-    static void extend(const Node& edge, const Node& next, const Node& third, Node& margin) noexcept {
-        for (std::size_t k = 0; k < margin.size(); ++k) {
-            margin[k] = 3.0F * edge[k] - 3.0F * next[k] + third[k];
-        }
-    }
-
-    int rows_;
-    int columns_;
-    std::vector<Node> nodes_;
-};
-
 }  // namespace
 
 struct SkyView::State {
@@ -202,13 +110,15 @@ void SkyView::State::place_rows() noexcept {
     const double dip_rad = shell.dip_rad(eye_height_m);
     horizon_rad = -dip_rad;
     highest_rad = kHalfPi;
-    double edge_rad = 0.0;
-    if (eye_height_m > shell.top_height_m) {
-        const double excess = (eye_height_m - shell.top_height_m) *
-                              (2.0 * shell.ground_radius_m + shell.top_height_m + eye_height_m);
-        highest_rad = -std::atan2(std::sqrt(excess), shell.ground_radius_m + shell.top_height_m);
-        edge_rad = highest_rad;
-    }
+    const double top_radius_m = shell.ground_radius_m + shell.top_height_m;
+    const double over_m = eye_height_m - shell.top_height_m;
+    const auto limb_rad = [top_radius_m](double above_m) {
+        return -std::atan2(std::sqrt(above_m * (2.0 * top_radius_m + above_m)), top_radius_m);
+    };
+    if (over_m > 0.0) highest_rad = limb_rad(over_m);
+    // At the lid the true edge starts with the root of the height; that of the rows goes through smoothly.
+    const double softness_m = 0.15 * shell.top_height_m;
+    const double edge_rad = limb_rad(0.5 * (over_m + std::hypot(over_m, softness_m)));
     const double horizon_m = std::sqrt(shell.excess_m2(eye_height_m));
     constexpr double kBendM = 8000.0;
     const double sky_range = kHalfPi + dip_rad;
@@ -232,6 +142,8 @@ double SkyView::State::elevation_rad(Side side, int row) const noexcept {
     return horizon_rad + (side == Side::kSky ? angle_rad : -angle_rad);
 }
 
+// X, Y, Z of everything but aerosol single scattering, then of that without its phase function: the aureole
+// is put together at look-up, so the nodes need not resolve it.
 Node SkyView::State::node_of(const Lanes& all, const Lanes& hazy) const noexcept {
     Node node{};
     for (std::size_t row = 0; row < 3; ++row) {

@@ -261,6 +261,24 @@ void WavesAt::add(const WaveControl& wave, double weight) noexcept {
     if (height_m(*lowest) < height_m(made)) *lowest = made;
 }
 
+std::optional<double> snow_cover(const SurfaceStore& surfaces, const RegionsAt& regions) noexcept {
+    const auto told = [&](WeatherScope scope, std::uint16_t region_id) -> std::optional<double> {
+        for (const TerrestrialSurfaceControl& condition : surfaces.conditions(scope, region_id)) {
+            if (condition.enable && condition.condition_id == kSnowCondition)
+                return static_cast<double>(condition.coverage) / 100.0;
+        }
+        return std::nullopt;
+    };
+    std::optional<double> cover = told(WeatherScope::kGlobal, 0);
+    for (const RegionAt& at : regions) {
+        if (const auto here = told(WeatherScope::kRegional, at.region->region_id)) {
+            const double before = cover.value_or(0.0);
+            cover = before + at.weight * (*here - before);
+        }
+    }
+    return cover;
+}
+
 GroundConditions::GroundConditions(const SurfaceStore& surfaces, const RegionsAt& regions) noexcept {
     const auto enabled = [](const TerrestrialSurfaceControl& condition) { return condition.enable; };
     bool over_global = false;

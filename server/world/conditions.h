@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "protocol/cigi/packets.h"
@@ -124,6 +125,14 @@ class WavesAt {
     std::array<WaveAt, kMost> waves_{};
     std::size_t count_ = 0;
 };
+
+/// Terrestrial conditions that are drawn, by id.
+inline constexpr std::uint16_t kSnowCondition = 1;
+
+/// Part of the ground that snow covers, 0..1, if anybody has said so here: the coverage of condition 1. A
+/// region's takes the place of the global one, in its perimeter by part.
+[[nodiscard]] std::optional<double> snow_cover(const SurfaceStore& surfaces,
+                                               const RegionsAt& regions) noexcept;
 
 /// The terrestrial conditions at a point. A region's take the place of the global ones, in its perimeter they
 /// come beside them. Nothing set is condition 0: dry.

@@ -35,9 +35,11 @@ class SurfaceStore {
     [[nodiscard]] bool has_regional_sea() const noexcept {
         return !seas_.empty() && seas_.back().scope == protocol::cigi::WeatherScope::kRegional;
     }
-    /// Waves or a sea are set in some region.
+    /// Waves, a sea or ground conditions are set in some region.
     [[nodiscard]] bool is_regional() const noexcept {
         return has_regional_sea() ||
+               (!conditions_.empty() &&
+                conditions_.back().scope == protocol::cigi::WeatherScope::kRegional) ||
                (!waves_.empty() && waves_.back().scope == protocol::cigi::WeatherScope::kRegional);
     }
     /// Enabled or not, sorted by wave.

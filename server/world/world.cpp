@@ -43,6 +43,8 @@ AirState configured_air(const config::Air& air) {
     state.temperature_c = air.temperature_c;
     state.pressure_hpa = air.pressure_hpa;
     state.humidity_pct = air.humidity_pct;
+    state.wind_horizontal_m_s = air.wind_m_s;
+    state.wind_from_deg = air.wind_from_deg;
     return state;
 }
 

@@ -1,5 +1,5 @@
 // A host at 60 Hz and a bus with 1000 frames a second, recorded and replayed twice bit by bit.
-//   SKYIG_DATA_SECONDS=N    so much of them (script/replay-check: ten minutes); ten seconds without it
+//   SKYIG_DATA_SECONDS=N    so much of them (script/replay-check: ten minutes); seven seconds without it
 //   SKYIG_RECORD_SECONDS=N  at their own pace for so long with and without a recording, three times each:
 //   what
 //                           recording takes of a processor (script/record-check)
@@ -95,7 +95,7 @@ std::size_t different_hashes(const std::string& hashes) {
 }
 
 TEST(BusAndHost, ARecordingReplaysTwiceBitByBit) {
-    const long seconds = seconds_from("SKYIG_DATA_SECONDS", 10);
+    const long seconds = seconds_from("SKYIG_DATA_SECONDS", 7);
     const std::chrono::seconds limit(60 + 3 * seconds);
     const ScratchDirectory scratch;
     const std::string capture = scratch.file("capture.pcapng");

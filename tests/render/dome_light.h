@@ -2,10 +2,13 @@
 // its corners' colours interpolated as a rasteriser does it, without one.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
+#include <random>
 #include <vector>
 
 #include "render/sky_frame.h"
@@ -81,7 +84,7 @@ class DomeLight {
         const std::size_t first = first_index_[low * stride_ + column];
         for (const std::size_t triangle : {first, first + 3}) {
             const glm::dvec3 w = weights(triangle, direction);
-            if (w.x >= -kRounding && w.y >= -kRounding && w.z >= -kRounding) return triangle;
+            if (std::min({w.x, w.y, w.z}) >= -1e-6 * std::max({w.x, w.y, w.z})) return triangle;
         }
         return std::nullopt;
     }
@@ -91,5 +94,37 @@ class DomeLight {
     std::vector<glm::dvec3> corners_;
     std::vector<std::size_t> first_index_;
 };
+
+struct CodeErrors {
+    double median = 0.0;
+    double p99 = 0.0;
+    double largest = 0.0;
+};
+
+/// What the dome shows against the exact colours, display codes, in directions that crowd at the horizon and at
+/// the source's azimuth, where the light bends. \param ground_share  of the directions that look down
+inline CodeErrors interpolation_errors(const SkyFrame& frame, int count, double ground_share) {
+    constexpr double kEdge_rad = 1.2e-3;  // beside the softened horizon of a pixel of 8e-4
+    const DomeLight dome(frame);
+    const double horizon = frame.light().horizon_elevation_rad;
+    std::mt19937 random{11};
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    std::vector<double> errors;
+    for (int i = 0; i < count; ++i) {
+        const bool down = unit(random) < ground_share;
+        const double range = down ? 1.55 + horizon : 1.5;
+        const double above = (down ? -1.0 : 1.0) * (std::pow(unit(random), 2.0) * range + kEdge_rad);
+        const double azimuth = (unit(random) < 0.5 ? -1 : 1) * std::pow(unit(random), 2.0) * 3.1 +
+                               frame.dome().layout().azimuth_rad;
+        const glm::dvec3 direction = direction_of({horizon + above, azimuth});
+        const auto drawn = dome.colour(direction);
+        EXPECT_TRUE(drawn);
+        if (!drawn) continue;
+        const glm::dvec3 d = glm::abs(*drawn - frame.exact_colour(direction)) * 255.0;
+        errors.push_back(std::max({d.x, d.y, d.z}));
+    }
+    std::sort(errors.begin(), errors.end());
+    return {errors[errors.size() / 2], errors[errors.size() * 99 / 100], errors.back()};
+}
 
 }  // namespace skyig::render::tests

@@ -126,34 +126,6 @@ TEST(Dome, LayoutServesUntilSomethingHasMovedFarEnough) {
     EXPECT_FALSE(still_fits(held, hazier));
 }
 
-struct Errors {
-    double median = 0.0;
-    double p99 = 0.0;
-    double largest = 0.0;
-};
-
-// Directions crowd at the horizon and at the source's azimuth, where the sky bends.
-Errors interpolation_errors(const SkyFrame& frame, int count) {
-    const DomeLight dome(frame);
-    std::mt19937 random{11};
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
-    std::vector<double> errors;
-    for (int i = 0; i < count; ++i) {
-        const double side = unit(random) < 0.25 ? -1.0 : 1.0;
-        const double above = side * (std::pow(unit(random), 2.0) * 1.5 + 1.5 * kPixel_rad);
-        const double azimuth = (unit(random) < 0.5 ? -1 : 1) * std::pow(unit(random), 2.0) * 3.1 +
-                               frame.dome().layout().azimuth_rad;
-        const glm::dvec3 direction = direction_of({frame.light().horizon_elevation_rad + above, azimuth});
-        const auto drawn = dome.colour(direction);
-        EXPECT_TRUE(drawn);
-        if (!drawn) continue;
-        const glm::dvec3 d = glm::abs(*drawn - frame.exact_colour(direction)) * 255.0;
-        errors.push_back(std::max({d.x, d.y, d.z}));
-    }
-    std::sort(errors.begin(), errors.end());
-    return {errors[errors.size() / 2], errors[errors.size() * 99 / 100], errors.back()};
-}
-
 TEST(Dome, InterpolatedColoursAreWithinHalfACodeOfTheExactOnes) {
     std::vector<NamedScene> scenes = tests::four_times();
     scenes.push_back({"sun 85", make_scene(85.0, 120.0, -20.0, 300.0, 0.0)});
@@ -169,7 +141,7 @@ TEST(Dome, InterpolatedColoursAreWithinHalfACodeOfTheExactOnes) {
     Frames frames;
     for (const NamedScene& named : scenes) {
         const SkyFrame& frame = frames.of(named.scene);
-        const Errors errors = interpolation_errors(frame, 4000);
+        const tests::CodeErrors errors = tests::interpolation_errors(frame, 4000, 0.25);
         const PlannedPass& planned = frame.plan()[Pass::kDome];
         std::printf("%-12s codes: median %.3f, p99 %.3f, largest %.3f; %d x %d, said %.2f\n",
                     named.name.c_str(), errors.median, errors.p99, errors.largest, planned.resolution.rows,
@@ -188,7 +160,7 @@ TEST(Dome, BudgetDecidesHowFineItIs) {
         quality.error_codes = budget;
         Frames frames(quality);
         const SkyFrame& frame = frames.of(make_scene(3.0, 120.0, -20.0, 300.0, 1000.0));
-        const Errors errors = interpolation_errors(frame, 4000);
+        const tests::CodeErrors errors = tests::interpolation_errors(frame, 4000, 0.25);
         const DomeSize& size = frame.dome().size();
         std::printf("budget %.2f codes: %3d + %2d rows x %3d columns, p99 %.3f, largest %.3f\n", budget,
                     size.sky_rows, size.ground_rows, size.columns, errors.p99, errors.largest);

@@ -67,7 +67,7 @@ server::SceneBuilder scene_builder(const StillOptions& options, const config::Co
         throw StillErrors{};
     }
     return server::SceneBuilder(server::ephemeris_model(config), std::move(*orientation.orientation),
-                                server::sky_settings(config.sky));
+                                server::sky_settings(config.sky), server::ground_settings(config.ground));
 }
 
 }  // namespace

@@ -1,0 +1,76 @@
+// A wavy mirror: slopes of the sea, and what it reflects of light from above. Pure mathematics, no table of
+// the air.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "render/scene.h"
+
+namespace skyig::render::sky {
+
+/// Refractive index of sea water in the middle of the visible.
+inline constexpr double kSeaIndex = 1.34;
+
+/// Fresnel's reflectance of unpolarised light at a level mirror of sea water. \param cosine  of the angle of
+/// incidence, 0..1 (clamped)
+[[nodiscard]] double fresnel_reflectance(double cosine) noexcept;
+
+/// Mean products of the slopes towards east and north.
+struct SlopeVariance {
+    double east_east = 0.003;
+    double north_north = 0.003;
+    double east_north = 0.0;
+
+    [[nodiscard]] double total() const noexcept { return east_east + north_north; }
+};
+
+/// Wind: clean surface of Cox and Munk, J. Opt. Soc. Am. 44 (1954) 838: 0.00316 W along it, 0.003 + 0.00192 W
+/// across, W in m/s at 12.5 m, here 0..25 (measured to 14; what is not finite counts as 0). Waves: a train of
+/// height H (trough to crest) and length L is a sine of small slope (Airy 1845): (pi H / L)^2 / 2 along its
+/// way, H / L at most 0.142 (Michell 1893: then it breaks).
+[[nodiscard]] SlopeVariance slope_variance(const Ground& ground, std::span<const Wave> waves) noexcept;
+
+/// Slopes are Gaussian (Cox and Munk's skewness and peakedness are left out), hiding and shadowing are
+/// Smith's (1967) as Ross, Dion and Potier, J. Opt. Soc. Am. A 22 (2005) 2442, use them for the sea: what one
+/// facet turns down to another counts as coming from as high above the level.
+///
+/// Directions are unit vectors from the surface in the plane of view: x away from the eye, y to its right, z
+/// up.
+class SeaSurface {
+  public:
+    SeaSurface() noexcept : SeaSurface(SlopeVariance{}) {}
+    explicit SeaSurface(const SlopeVariance& variance) noexcept;
+
+    [[nodiscard]] const SlopeVariance& variance() const noexcept { return variance_; }
+
+    /// Radiance towards the eye over irradiance on a plane facing the rays of a small source, 1/sr.
+    /// \param view_up  sine of the elevation at which the surface sees the eye, 0..1 \param view_azimuth_rad
+    /// clockwise from north, of x \param source  unit vector; a source below the level counts as on it
+    [[nodiscard]] double glitter_per_sr(double view_up, double view_azimuth_rad,
+                                        const glm::dvec3& source) const noexcept;
+
+    /// Where the eye looks to by way of one facet, and what part of the light there this makes of the whole.
+    struct Facet {
+        glm::dvec3 reflected{0.0, 0.0, 1.0};
+        double share = 0.0;
+    };
+    static constexpr std::size_t kFacets = 24;
+    using Facets = std::array<Facet, kFacets>;
+    /// Quadrature over the facets that the eye sees, wind and waves taken as without direction. Shares sum to
+    /// the mean reflectance.
+    [[nodiscard]] Facets facets(double view_up) const noexcept;
+
+    /// Of the surface as the eye sees it: 0.02 from above; at the horizon well below 1.
+    [[nodiscard]] double mean_reflectance(double view_up) const noexcept;
+
+  private:
+    static constexpr std::size_t kNodes = 33;  // over the root of view_up
+    SlopeVariance variance_;
+    double determinant_ = 0.0;
+    std::array<double, kNodes> reflectance_{};
+};
+
+}  // namespace skyig::render::sky

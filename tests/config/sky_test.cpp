@@ -1,0 +1,93 @@
+// [sky] and its tables: the models of the day sky and their parameters.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "config/config.h"
+
+namespace skyig::config {
+namespace {
+
+using testing::HasSubstr;
+
+std::string with(std::string_view lines) {
+    return fmt::format(
+        "version = 1\n{}\n[[channel]]\nname = \"centre\"\nwidth_px = 64\nheight_px = 48\nleft_deg = -30\n"
+        "right_deg = 30\nbottom_deg = -25\ntop_deg = 25\n",
+        lines);
+}
+
+std::string error_of(const std::string& text) {
+    const LoadResult result = parse_config(text, "site.toml");
+    EXPECT_EQ(result.errors.size(), 1U) << text;
+    return result.errors.empty() ? std::string{} : to_text(result.errors.front());
+}
+
+TEST(SkySettings, ReadsTheModelsWithTheirParameters) {
+    const LoadResult result = parse_config(with(R"(
+[sky]
+model = "windlight"
+[sky.daycycle]
+desaturation = 0.3
+[sky.cie]
+type = 16
+zenith_luminance_cd_m2 = 5000
+[sky.preetham]
+turbidity = 4
+zenith = "multi"
+[sky.windlight]
+blue_horizon = [0.1, 0.2, 0.3]
+haze_horizon = 0.4
+blue_density = [0.5, 0.6, 0.7]
+haze_density = 0.8
+density_per_m = 1e-3
+max_altitude_m = 2000
+sunlight = [1, 2, 3]
+ambient = [4, 5, 6]
+glow_size = 7
+glow_floor = 0.01
+glow_power = -0.9
+horizon_drop = 0.1
+unit_cd_m2 = 12000
+sun_angle_deg = 33
+east_angle_deg = -20
+)"),
+                                           "site.toml");
+    ASSERT_TRUE(result) << to_text(result.errors.front());
+    const Sky& sky = result.config->sky;
+    EXPECT_EQ(sky.model, SkyModel::kWindlight);
+    EXPECT_EQ(sky.day_cycle.desaturation, 0.3);
+    EXPECT_EQ(sky.cie.type, 16);
+    EXPECT_EQ(sky.cie.zenith_luminance_cd_m2, 5000.0);
+    EXPECT_EQ(sky.preetham.turbidity, 4.0);
+    EXPECT_TRUE(sky.preetham.zenith_of_multi);
+    const WindlightSky& look = sky.windlight;
+    EXPECT_EQ(look.blue_horizon, (std::array{0.1, 0.2, 0.3}));
+    EXPECT_EQ(look.blue_density, (std::array{0.5, 0.6, 0.7}));
+    EXPECT_EQ(look.sunlight, (std::array{1.0, 2.0, 3.0}));
+    EXPECT_EQ(look.ambient, (std::array{4.0, 5.0, 6.0}));
+    EXPECT_EQ(look.haze_horizon, 0.4);
+    EXPECT_EQ(look.haze_density, 0.8);
+    EXPECT_EQ(look.density_per_m, 1e-3);
+    EXPECT_EQ(look.max_altitude_m, 2000.0);
+    EXPECT_EQ(look.glow_size, 7.0);
+    EXPECT_EQ(look.glow_floor, 0.01);
+    EXPECT_EQ(look.glow_power, -0.9);
+    EXPECT_EQ(look.horizon_drop, 0.1);
+    EXPECT_EQ(look.unit_cd_m2, 12000.0);
+    EXPECT_EQ(look.sun_angle_deg, 33.0);
+    EXPECT_EQ(look.east_angle_deg, -20.0);
+}
+
+TEST(SkySettings, TellsWhatIsWrongInTheirTables) {
+    EXPECT_THAT(error_of(with("[sky]\nmodel = \"mutli\"")), HasSubstr("did you mean \"multi\"?"));
+    EXPECT_THAT(error_of(with("[sky.cie]\ntype = 17")), HasSubstr("sky.cie.type: is 17; it must be 1..16"));
+    EXPECT_THAT(error_of(with("[sky]\ncie = 3")), HasSubstr("it must be a table: [sky.cie]"));
+    EXPECT_THAT(error_of(with("[sky.windlight]\nsunlight = [1, 2]")), HasSubstr("[red, green, blue]"));
+    EXPECT_THAT(error_of(with("[sky.windlight]\nsunlight = [1, 2, -1]")), HasSubstr("0..10"));
+    EXPECT_THAT(error_of(with("[sky.windlite]")), HasSubstr("did you mean \"windlight\"?"));
+    EXPECT_THAT(error_of(with("[sky.preetham]\nturbidity = 1.5")), HasSubstr("2..10"));
+}
+
+}  // namespace
+}  // namespace skyig::config
