@@ -117,6 +117,7 @@ void Dome::place_rows(const DomeBend& bend) {
 
 void Dome::lay_out(const DomeLayout& layout, const DomeBend& bend, const DomeSize& size) {
     settle_mix();
+    laid_ = true;
     std::swap(rows_, old_rows_);
     std::swap(azimuths_rad_, old_azimuths_rad_);
     const double turn_rad = layout.azimuth_rad - layout_.azimuth_rad;
@@ -150,8 +151,10 @@ void Dome::lay_out(const DomeLayout& layout, const DomeBend& bend, const DomeSiz
 void Dome::settle_mix() noexcept {
     if (share_ >= 1.0) return;
     const auto share = static_cast<float>(share_);
-    for (std::size_t i = 0; i < to_.size(); ++i)
+    for (std::size_t i = 0; i < to_.size(); ++i) {
         to_[i] = glm::mix(from_[i], to_[i], share);
+        vertices_[i].to = glm::mix(vertices_[i].from, vertices_[i].to, share);
+    }
     share_ = 1.0;
 }
 
@@ -238,10 +241,16 @@ void Dome::encode_one(const std::vector<glm::vec3>& light, const shaders32::Tone
 
 void Dome::encode(const shaders64::ToneParameters& tone) {
     const auto tone32 = eye::single_precision(tone);
-    if (share_ < 1.0) encode_one(from_, tone32, &DomeVertex::from);
+    if (replaced_ && !laid_) {
+        // What is on the screen now.
+        for (DomeVertex& vertex : vertices_)
+            vertex.from = vertex.to;
+    } else if (share_ < 1.0) {
+        encode_one(from_, tone32, &DomeVertex::from);
+    }
     encode_one(to_, tone32, &DomeVertex::to);
     if (replaced_) begin_fade();
-    replaced_ = false;
+    replaced_ = laid_ = false;
     if (share_ < 1.0) return;
     for (DomeVertex& vertex : vertices_)
         vertex.from = vertex.to;

@@ -57,8 +57,8 @@ class Dome {
   public:
     /// Colours of a replaced table fade in by at most this much a frame, unless that takes kLongestFade
     /// frames.
-    static constexpr double kFadeStep_codes = 0.5;
-    static constexpr int kLongestFade = 30;
+    static constexpr double kFadeStep_codes = 0.125;
+    static constexpr int kLongestFade = 60;
     static constexpr std::size_t kMaxVertices =
         static_cast<std::size_t>(DomeBend::kMost.sky_rows + DomeBend::kMost.ground_rows + 2) *
         static_cast<std::size_t>(DomeBend::kMost.columns + 1);
@@ -131,6 +131,7 @@ class Dome {
     double share_ = 1.0;
     double fade_step_ = 1.0;
     bool replaced_ = false;  // by the last look_up()
+    bool laid_ = false;      // anew, and not encoded since
 };
 
 }  // namespace skyig::render

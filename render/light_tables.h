@@ -26,6 +26,8 @@ class LightTables {
     static constexpr std::uint64_t kAirLatencyFrames = 30;
     static constexpr int kRowsAFrame = 10;
     static constexpr int kSeaRowsAFrame = 4;
+    /// Air that changes in every frame is asked for once in so many.
+    static constexpr std::uint64_t kAirIntervalFrames = 90;
 
     /// \param size  of the direction tables
     explicit LightTables(const sky::SkyViewSize& size = {});
@@ -81,13 +83,29 @@ class LightTables {
         Made back_made;
         bool building = false;
     };
+    /// How fast something moves, a frame: the smaller of its last two steps, 0 where they disagree.
+    class Trend {
+      public:
+        void follow(double now) noexcept;
+        /// What it will have gained when a table begun now is half used up. \param step  by which it is then
+        /// off
+        [[nodiscard]] double ahead(double step) const noexcept;
+
+      private:
+        bool started_ = false;
+        double last_ = 0.0;
+        double step_ = 0.0;
+        double a_frame_ = 0.0;
+    };
     /// What a view is to be made for.
     struct Wanted {
         bool needed = false;
         bool matters = false;
         bool by_sun = true;
         double elevation_rad = 0.0;
+        double elevation_ahead_rad = 0.0;
         double height_m = 0.0;
+        double height_ahead_m = 0.0;
     };
     void update_air(const Scene& scene, const Plan& plan);
     void update_sea(const Scene& scene) noexcept;
@@ -101,7 +119,12 @@ class LightTables {
     SkySettings sky_;  // the scene's, or those before it until the air for its model is there
     std::uint64_t air_revision_ = 0;
     AirBuilder builder_;
-    std::optional<std::uint64_t> next_air_age_;  // frames since the request, if there is one
+    std::optional<std::uint64_t> next_air_age_;     // frames since the request, if there is one
+    std::uint64_t air_rests_ = kAirIntervalFrames;  // frames since air was last asked for
+    std::optional<sky::AirModel> last_wanted_;      // while it is not the one in use
+    Trend sun_trend_;
+    Trend moon_trend_;
+    Trend height_trend_;
 
     View sun_;
     View moon_;

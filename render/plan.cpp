@@ -13,9 +13,6 @@ namespace {
 
 constexpr double kDegree = glm::radians(1.0);
 
-// A source moves this far before its table is stale: 1 % of luminance in the steepest twilight.
-constexpr double kStaleAngle_rad = 0.01 * kDegree;
-
 constexpr double kBrightestStar_mag = -1.46;
 // Planets below this stand under the horizon wherever a cockpit may be; from higher up they only cost a pass.
 constexpr double kLowestPlanet_sine = -0.1;
@@ -56,7 +53,8 @@ Verdict plan_sky(bool lights, bool valid, bool same_model, double now_rad, doubl
     if (!lights) return {false, "the source is too low to light the air"};
     if (!valid) return {true, "no table of this air yet"};
     if (!same_model) return {true, "the sky's model, its parameters or the sea have changed"};
-    if (std::abs(now_rad - held_rad) > kStaleAngle_rad) return {true, "the source has moved by 0.01 deg"};
+    if (std::abs(now_rad - held_rad) > sky::source_step_rad(held_rad))
+        return {true, "the source has moved on"};
     if (height_stale) return {true, "the eye has changed height"};
     return {false, "the table is fresh"};
 }

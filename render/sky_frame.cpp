@@ -16,7 +16,7 @@ namespace {
 constexpr double kZenith_rad = 1.5707;
 
 // A shift of adaptation smaller than this moves no pixel by half a display code.
-constexpr double kAdaptationStep = 0.002;
+constexpr double kAdaptationStep = 0.004;
 
 // Of the sources' relative azimuth, or of the moonlit share: below it the dome's colours stay.
 constexpr float kLightStep = 5e-4F;

@@ -1,14 +1,18 @@
 // What keeping the tables fresh costs in flight, and what more channels cost, as multiples of "a write" of
 // one 1280x1024 channel in the same run. Processor time of all threads: the builder of new air counts.
 //   upkeep_bench [SECONDS]     of flight at 30 frames a second, default 30
+//   upkeep_bench steadiness [SECONDS]     largest step from frame to frame in a replay, default 150 s a
+//   flight
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 #include "render/gl/headless_context.h"
 #include "render/renderer.h"
 #include "tests/bench/spent.h"
 #include "tests/render/flights.h"
 #include "tests/render/scenes.h"
+#include "tests/render/steadiness.h"
 
 namespace {
 
@@ -71,11 +75,23 @@ double rig_ms(std::size_t channels, int rounds) {
     return median(times);
 }
 
+void replay_for_steps(int seconds) {
+    for (const tests::Flight& flight : tests::steadiness_flights()) {
+        const tests::Steps steps = tests::largest_step(flight, 0, 30 * seconds);
+        std::printf("%-30s %d frames, largest step %d codes, at frame %d\n", flight.name.c_str(),
+                    30 * seconds, steps.largest, steps.at_frame);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    const int seconds = argc > 1 ? std::max(2, std::atoi(argv[1])) : 30;
     const gl::HeadlessContext context = gl::HeadlessContext::create(false);
+    if (argc > 1 && std::string_view(argv[1]) == "steadiness") {
+        replay_for_steps(argc > 2 ? std::max(2, std::atoi(argv[2])) : 150);
+        return 0;
+    }
+    const int seconds = argc > 1 ? std::max(2, std::atoi(argv[1])) : 30;
     std::printf("%s, %dx%d, %d s of flight\n", context.description().c_str(), kWidth, kHeight, seconds);
     std::printf("%-28s %9s %11s %9s %12s\n", "flight", "write ms", "upkeep ms", "writes", "slowest ms");
     for (const tests::Flight& flight : tests::upkeep_flights())

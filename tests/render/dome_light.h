@@ -101,8 +101,8 @@ struct CodeErrors {
     double largest = 0.0;
 };
 
-/// What the dome shows against the exact colours, display codes, in directions that crowd at the horizon and at
-/// the source's azimuth, where the light bends. \param ground_share  of the directions that look down
+/// What the dome shows against the exact colours, display codes, in directions that crowd at the horizon and
+/// at the source's azimuth, where the light bends. \param ground_share  of the directions that look down
 inline CodeErrors interpolation_errors(const SkyFrame& frame, int count, double ground_share) {
     constexpr double kEdge_rad = 1.2e-3;  // beside the softened horizon of a pixel of 8e-4
     const DomeLight dome(frame);

@@ -196,7 +196,7 @@ TEST(Dome, NewAirFadesInAndEndsAtItsOwnColours) {
         return largest;
     };
     double largest_step = 0.0;
-    for (int i = 0; i < 90; ++i) {
+    for (int i = 0; i < 130; ++i) {
         scene.time_s += 1.0 / 30.0;
         frame.prepare(scene, kPixel_rad);
         const std::vector<glm::dvec3> now = colours();
@@ -224,7 +224,7 @@ TEST(Dome, LightThatThePlanDropsWouldChangeNoCodeByHalf) {
     double time_s = 0.0;
     for (const double height_m : {0.0, 3e3, 12e3, 400e3}) {
         for (const double sun_deg : {60.0, 5.0, -4.0, -9.0, -22.0, -40.0}) {
-            for (const double moon_deg : {50.0, -8.0, -30.0}) {
+            for (const double moon_deg : {50.0, -8.0}) {
                 Scene scene = make_scene(sun_deg, 120.0, moon_deg, 250.0, height_m);
                 scene.time_s = time_s += 100.0;
                 planned.prepare(scene, kPixel_rad);

@@ -48,4 +48,20 @@ inline std::vector<Flight> upkeep_flights() {
     return {low, day, high, sunset, ramp};
 }
 
+/// What has made skies flicker: sunset, a climb through haze, visibility that ramps, stars that come out.
+inline std::vector<Flight> steadiness_flights() {
+    Flight sunset{"sunset"};
+    sunset.sun_deg = 1.0;
+    Flight haze{"climb through haze"};
+    haze.sun_deg = 15.0;
+    haze.height_m = 300.0;
+    haze.visibility_m = haze.last_visibility_m = 8e3;
+    Flight ramp{"visibility 80 to 8 km in 60 s"};
+    ramp.last_visibility_m = 8e3;
+    Flight stars{"dusk"};
+    stars.sun_deg = -5.0;
+    stars.climb_m_s = 0.0;
+    return {sunset, haze, ramp, stars};
+}
+
 }  // namespace skyig::render::tests

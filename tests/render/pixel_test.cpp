@@ -9,6 +9,7 @@
 
 #include "tests/render/dome_light.h"
 #include "tests/render/gl_fixture.h"
+#include "tests/render/steadiness.h"
 
 namespace skyig::render {
 namespace {
@@ -67,8 +68,9 @@ std::vector<Scene> forty_scenes(const Channel& channel) {
             scene.stars.enabled = scene.sun.enabled = scene.moon.enabled = false;
             scene.time_s = 100.0 * ++view;
             const double half_deg = view % 3 == 0 ? 80.0 : view % 3 == 1 ? 30.0 : 4.0;
-            add_view(scene, symmetric_frustum(half_deg, channel.width_px, channel.height_px),
-                     view_from_enu(120.0 + 47.0 * view, view % 5 == 0 ? -35.0 : 4.0 * (view % 5), 21.0 * view));
+            add_view(
+                scene, symmetric_frustum(half_deg, channel.width_px, channel.height_px),
+                view_from_enu(120.0 + 47.0 * view, view % 5 == 0 ? -35.0 : 4.0 * (view % 5), 21.0 * view));
             scenes.push_back(scene);
         }
     }
@@ -87,10 +89,9 @@ TEST_F(Pixel, DrawnDomeIsWithinACodeOfTheSameDomeInDouble) {
         const DomeLight dome(frame);
         for (int y = 0; y < channels[0].height_px; y += 3) {
             for (int x = y % 2; x < channels[0].width_px; x += 2) {
-                const glm::dvec3 direction =
-                    glm::transpose(scene.views[0].view_from_enu) *
-                    view_direction(channels[0], scene.views[0].frustum, x + 0.5,
-                                   channels[0].height_px - y - 0.5);
+                const glm::dvec3 direction = glm::transpose(scene.views[0].view_from_enu) *
+                                             view_direction(channels[0], scene.views[0].frustum, x + 0.5,
+                                                            channels[0].height_px - y - 0.5);
                 const auto colour = dome.colour(direction);
                 ASSERT_TRUE(colour);
                 const Rgb drawn = pictures[0].at(x, y);
@@ -183,6 +184,15 @@ TEST_F(Pixel, EqualScenesGiveEqualPictures) {
     for (auto& [name, scene] : four_times()) {
         add_view(scene, symmetric_frustum(30.0, 320, 256), view_from_enu(170.0, 5.0, 0.0));
         EXPECT_EQ(draw(channels, scene, {})[0].rgba, draw(channels, scene, {})[0].rgba) << name;
+    }
+}
+
+TEST_F(Pixel, AReplayedFlightDoesNotFlicker) {
+    for (const Flight& flight : steadiness_flights()) {
+        const Steps steps = largest_step(flight, 0, 160);
+        std::printf("%-30s largest step from frame to frame: %d codes, at frame %d\n", flight.name.c_str(),
+                    steps.largest, steps.at_frame);
+        EXPECT_LE(steps.largest, 2) << flight.name;
     }
 }
 

@@ -46,13 +46,15 @@ TEST(Plan, FreshTablesAreKept) {
     EXPECT_EQ(plan.sun_share, 1.0);
 }
 
-TEST(Plan, SourceThatMovedAHundredthOfADegreeMakesItsTableStale) {
-    const Scene scene = make_scene(30, 180, 10, 0, 1000);
-    Held held = fresh(scene);
-    held.sun_sky_elevation_rad += 0.009 * tests::kDegree;
-    EXPECT_FALSE(plan_of(scene, held).needs(Pass::kSunSky));
-    held.sun_sky_elevation_rad += 0.002 * tests::kDegree;
-    EXPECT_TRUE(plan_of(scene, held).needs(Pass::kSunSky));
+TEST(Plan, SourceThatMovedAHundredthOfADegreeMakesItsTableStaleByNoonThree) {
+    for (const auto& [sun_deg, step_deg] : {std::pair{0.0, 0.01}, std::pair{30.0, 0.03}}) {
+        const Scene scene = make_scene(sun_deg, 180, 10, 0, 1000);
+        Held held = fresh(scene);
+        held.sun_sky_elevation_rad += 0.9 * step_deg * tests::kDegree;
+        EXPECT_FALSE(plan_of(scene, held).needs(Pass::kSunSky)) << sun_deg;
+        held.sun_sky_elevation_rad += 0.2 * step_deg * tests::kDegree;
+        EXPECT_TRUE(plan_of(scene, held).needs(Pass::kSunSky)) << sun_deg;
+    }
 }
 
 TEST(Plan, StaleAirIsAskedForAnew) {

@@ -36,8 +36,9 @@ TEST(SeaLight, DomeDrawsGlitterWithinACode) {
         frame.prepare(scene, 8e-4);
         const tests::CodeErrors errors = tests::interpolation_errors(frame, 4000, 1.0);
         const DomeSize& size = frame.dome().size();
-        std::printf("sea, %-6s codes: median %.3f, p99 %.3f, largest %.3f; %d + %d rows, %d columns\n", c.name,
-                    errors.median, errors.p99, errors.largest, size.sky_rows, size.ground_rows, size.columns);
+        std::printf("sea, %-6s codes: median %.3f, p99 %.3f, largest %.3f; %d + %d rows, %d columns\n",
+                    c.name, errors.median, errors.p99, errors.largest, size.sky_rows, size.ground_rows,
+                    size.columns);
         EXPECT_LT(errors.p99, 0.5) << c.name;
         EXPECT_LT(errors.largest, 3.0) << c.name;
     }
