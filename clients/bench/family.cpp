@@ -11,15 +11,17 @@
 #include <thread>
 
 #include "clients/bench/ephemeris_family.h"
+#include "clients/bench/sky_family.h"
 #include "clients/bench/wire_family.h"
 
 namespace skyig::clients::bench {
 
 namespace {
 
-constexpr std::array<Family, 2> kFamilies{{
+constexpr std::array<Family, 3> kFamilies{{
     {"ephemeris", "places of Sun, Moon and planets", measure_ephemeris_errors, ephemeris_contenders,
      ephemeris_floor},
+    {"sky", "light of the day sky", measure_sky_errors, sky_contenders, sky_floor},
     {"wire", "CIGI in both versions and byte orders", measure_wire_errors, wire_contenders, wire_floor},
 }};
 

@@ -89,6 +89,16 @@ void put_costs(std::string& page, const Report& report) {
     }
 }
 
+void put_sizes(std::string& page, const Report& report) {
+    std::string lines;
+    for (const ModelEntry& model : report.models) {
+        for (const SizeEntry& size : model.sizes)
+            fmt::format_to(std::back_inserter(lines), "| {} | {} | {} |\n", cell(model.name), cell(size.name),
+                           size.bytes);
+    }
+    if (!lines.empty()) page += "\n## Memory\n\n| model | of | bytes |\n|---|---|--:|\n" + lines;
+}
+
 /// Name, ns and floors; empty cells for nothing.
 std::string cost_cells(const CostEntry* cost) {
     if (!cost) return " | | ";
@@ -146,6 +156,7 @@ std::string family_page(const Report& report) {
     for (const std::string& cases : case_sets(report))
         put_errors(page, report, cases);
     put_costs(page, report);
+    put_sizes(page, report);
     return page;
 }
 

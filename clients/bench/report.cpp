@@ -54,6 +54,10 @@ std::string to_text(const Report& report) {
                            cost.instructions ? fmt::format("{:.0f}", *cost.instructions) : "-");
         }
     }
+    for (const ModelEntry& model : report.models) {
+        for (const SizeEntry& size : model.sizes)
+            fmt::format_to(out, "{:<15} memory, {}: {} bytes\n", model.name, size.name, size.bytes);
+    }
     return text;
 }
 

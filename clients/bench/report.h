@@ -1,6 +1,7 @@
 // What is known about a family of models: one shape for all families, kept as JSON (docs/accuracy/schema.md).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -29,11 +30,19 @@ struct CostEntry {
     std::optional<double> instructions;
 };
 
+/// Memory that a model holds while it is in use.
+struct SizeEntry {
+    std::string name;
+    std::size_t bytes = 0;
+};
+
 struct ModelEntry {
     std::string name;
     std::string what;
     std::vector<ErrorEntry> errors;
     std::vector<CostEntry> costs;
+    /// Empty where memory is no matter.
+    std::vector<SizeEntry> sizes = {};
 };
 
 /// A quantity whose error is drawn against a cost, one point a model.

@@ -49,6 +49,8 @@ Json to_node(const ModelEntry& model) {
         node["errors"].push_back(to_node(error));
     for (const CostEntry& cost : model.costs)
         node["costs"].push_back(to_node(cost));
+    for (const SizeEntry& size : model.sizes)
+        node["sizes"].push_back({{"name", size.name}, {"bytes", size.bytes}});
     return node;
 }
 
@@ -87,11 +89,14 @@ CostEntry cost_of(const Json& node) {
 }
 
 ModelEntry model_of(const Json& node) {
-    ModelEntry model{text_of(node, "name"), text_of(node, "what"), {}, {}};
+    ModelEntry model{text_of(node, "name"), text_of(node, "what"), {}, {}, {}};
     for (const Json& error : node.at("errors"))
         model.errors.push_back(error_of(error));
     for (const Json& cost : node.at("costs"))
         model.costs.push_back(cost_of(cost));
+    if (!node.contains("sizes")) return model;
+    for (const Json& size : node.at("sizes"))
+        model.sizes.push_back({text_of(size, "name"), size.at("bytes").get<std::size_t>()});
     return model;
 }
 

@@ -1,6 +1,7 @@
 #include "render/sky/air_data.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -24,16 +25,35 @@ double ozone_density(const AirModel& model, double height_m) {
     return std::clamp(std::min(up, down), 0.0, 1.0);
 }
 
-// Mean of the Legendre polynomial of that degree over the aerosol's phase function.
-double legendre_moment(double g, int degree) {
+// Means of the Legendre polynomials over the aerosol's phase function, one degree more than is carried.
+std::array<double, kDegrees + 2> legendre_moments(double g) {
     static const auto rule = gauss_legendre<64>();
-    double sum = 0.0;
+    std::array<double, kDegrees + 2> moments{};
     for (std::size_t i = 0; i < rule.node.size(); ++i) {
         const double c = rule.node[i];
-        sum += rule.weight[i] * cornette_shanks_phase(g, c) *
-               (degree == 2 ? 1.5 * c * c - 0.5 : (2.5 * c * c - 1.5) * c);
+        const double weight = 2.0 * std::numbers::pi * rule.weight[i] * cornette_shanks_phase(g, c);
+        double previous = 0.0;
+        double value = 1.0;
+        for (std::size_t degree = 0; degree < moments.size(); ++degree) {
+            moments[degree] += weight * value;
+            const auto l = static_cast<double>(degree);
+            const double next = ((2.0 * l + 1.0) * c * value - l * previous) / (l + 1.0);
+            previous = value;
+            value = next;
+        }
     }
-    return 2.0 * std::numbers::pi * sum;
+    return moments;
+}
+
+// Light scattered by a few degrees is as good as unscattered, except that it leaves the bright band at the
+// horizon. How much of the phase function's peak beyond the carried degrees counts as unscattered (delta-M
+// would take all of it): fitted to the truth tables, by the aerosol's vertical depth, from the thin haze of A
+// and B to that of scenes with a visibility of 5 km.
+double peak_share(const AirModel& model) {
+    constexpr std::size_t kGreen = 8;
+    const double depth =
+        static_cast<double>(model.aerosol_extinction_per_m[kGreen]) * model.aerosol_scale_height_m;
+    return 0.2 - 0.55 * std::expm1(-depth / 0.4);
 }
 
 Lanes lanes_of(const Spectrum& spectrum) {
@@ -124,10 +144,8 @@ void build_medium(const AirModel& model, AirData& data) {
     data.medium.albedo_over_pi = lanes_of(model.ground_albedo);
     for (float& albedo : data.medium.albedo_over_pi.v)
         albedo *= std::numbers::inv_pi_v<float>;
-    // Light scattered by a few degrees is as good as unscattered, except that it leaves the bright band at
-    // the horizon: a quarter of the peak beyond l = 2 (delta-M would take all of it) fits the truth best, A
-    // and B alike.
-    const double peak = 0.25 * legendre_moment(model.aerosol_g, 3);
+    const auto chi = legendre_moments(model.aerosol_g);
+    const double peak = peak_share(model) * chi[kDegrees + 1];
     const auto passed = static_cast<float>(peak);
     data.medium.aerosol_diffuse_extinction = data.medium.aerosol_extinction;
     data.medium.aerosol_diffuse_scattering = data.medium.aerosol_scattering;
@@ -135,9 +153,8 @@ void build_medium(const AirModel& model, AirData& data) {
         data.medium.aerosol_diffuse_extinction.v[i] -= passed * data.medium.aerosol_scattering.v[i];
         data.medium.aerosol_diffuse_scattering.v[i] *= 1.0F - passed;
     }
-    data.medium.chi_1 =
-        static_cast<float>((cornette_shanks_mean_cosine(model.aerosol_g) - peak) / (1.0 - peak));
-    data.medium.chi_2 = static_cast<float>((legendre_moment(model.aerosol_g, 2) - peak) / (1.0 - peak));
+    for (std::size_t degree = 0; degree <= kDegrees; ++degree)
+        data.medium.chi[degree] = static_cast<float>((chi[degree] - peak) / (1.0 - peak));
     data.log_molecules.resize(kProfileCells + 1);
     for (std::size_t i = 0; i <= kProfileCells; ++i) {
         data.log_molecules[i] = static_cast<float>(

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "render/scene.h"
+#include "render/sky/air_shape.h"
 
 namespace skyig::render::sky {
 
@@ -17,27 +18,9 @@ using Spectrum = std::array<float, kWavelengths>;
 inline constexpr double kFirstWavelengthNm = 390.0;
 inline constexpr double kWavelengthStepNm = 21.0;
 
-/// Density relative to that at height 0, log-linear between knots of rising height (the first at 0); the last
-/// slope goes on above the last knot. Two knots make one exponential.
-struct DensityProfile {
-    static constexpr std::size_t kMaxKnots = 28;
-    std::size_t knot_count = 0;
-    std::array<double, kMaxKnots> height_m{};
-    std::array<double, kMaxKnots> log_density{};
-};
-
 /// Spherical shell of molecules, aerosol and ozone over a Lambertian ground. Coefficients are per metre at
 /// height 0, except ozone's, which is at the peak of its triangular layer. No refraction, no polarisation.
-struct AirModel {
-    double ground_radius_m = 6371.0e3;
-    double top_height_m = 120.0e3;
-    DensityProfile molecules;
-    double aerosol_scale_height_m = 1200.0;
-    /// Cornette-Shanks parameter (not the mean cosine), the same at all wavelengths.
-    double aerosol_g = 0.75;
-    double ozone_bottom_m = 10.0e3;
-    double ozone_peak_m = 25.0e3;
-    double ozone_top_m = 40.0e3;
+struct AirModel : AirShape {
     Spectrum wavelength_nm{};
     Spectrum rayleigh_per_m{};
     Spectrum aerosol_extinction_per_m{};

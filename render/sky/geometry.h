@@ -49,6 +49,23 @@ struct Shell {
         const double divisor = -r * cosine + root;
         return divisor > 0.0 ? excess / divisor : 0.0;
     }
+
+    /// Where a ray is below the lid, as if the ground were glass; false when it misses.
+    [[nodiscard]] bool inside(double height_m, double cosine, double& enter_m,
+                              double& leave_m) const noexcept {
+        if (height_m <= top_height_m) {
+            enter_m = 0.0;
+            leave_m = distance_to_top_m(height_m, cosine);
+            return leave_m > 0.0;
+        }
+        const double r = ground_radius_m + height_m;
+        const double excess = (height_m - top_height_m) * (2.0 * ground_radius_m + top_height_m + height_m);
+        const double root2 = r * r * cosine * cosine - excess;
+        if (cosine >= 0.0 || root2 <= 0.0) return false;
+        leave_m = -r * cosine + std::sqrt(root2);
+        enter_m = excess / leave_m;
+        return true;
+    }
 };
 
 }  // namespace skyig::render::sky

@@ -5,7 +5,10 @@
 namespace skyig::render::sky {
 
 inline constexpr int kLanes = 16;
-inline constexpr int kMoments = 6;
+
+/// Light scattered more than once is kept as moments up to this degree.
+inline constexpr int kDegrees = 4;
+inline constexpr int kMoments = 15;
 
 /// Transfers below this (1/sr; 1e-8 cd/m2 of sunlight) count as darkness.
 inline constexpr float kDarkness = 1e-13F;
@@ -30,7 +33,7 @@ struct ColumnTable {
 };
 
 /// Light of one or more orders over height (rows, cubic) and sine of the source's elevation (see
-/// sine_place()): ln m0 and the other five moments over m0, kMoments * kLanes floats a node; and the
+/// sine_place()): ln m0 and the other moments over m0, kMoments * kLanes floats a node; and the
 /// irradiance of the ground, ln E.
 struct MomentTable {
     const float* nodes;
@@ -57,8 +60,7 @@ struct Medium {
     Lanes aerosol_diffuse_scattering;
     Lanes ozone;
     Lanes albedo_over_pi;
-    float chi_1;  // Legendre moments of the aerosol phase function without its peak
-    float chi_2;
+    float chi[kDegrees + 1];  // Legendre moments of the aerosol phase function without its peak
 };
 
 /// One step of a path through the air, at its centre of mass. Everything here is independent of the azimuth.

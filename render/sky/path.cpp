@@ -99,23 +99,6 @@ void add_steps(const Ray& ray, double low_m, double high_m, int count, Path& pat
     }
 }
 
-// Where the ray is inside the shell, as if the ground were glass; false when it misses.
-bool inside_shell(const Shell& shell, double eye_height_m, double cosine, double& enter_m, double& leave_m) {
-    if (eye_height_m <= shell.top_height_m) {
-        enter_m = 0.0;
-        leave_m = shell.distance_to_top_m(eye_height_m, cosine);
-        return leave_m > 0.0;
-    }
-    const double r = shell.ground_radius_m + eye_height_m;
-    const double excess = (eye_height_m - shell.top_height_m) *
-                          (2.0 * shell.ground_radius_m + shell.top_height_m + eye_height_m);
-    const double root2 = r * r * cosine * cosine - excess;
-    if (cosine >= 0.0 || root2 <= 0.0) return false;
-    leave_m = -r * cosine + std::sqrt(root2);
-    enter_m = excess / leave_m;
-    return true;
-}
-
 }  // namespace
 
 void lay_path(const AirData& data, double eye_height_m, double cosine, Side side, int steps_most, Path& path,
@@ -125,7 +108,7 @@ void lay_path(const AirData& data, double eye_height_m, double cosine, Side side
     const Ray ray{data, eye_height_m, cosine};
     double enter_m = 0.0;
     double leave_m = 0.0;
-    const bool inside = inside_shell(data.shell, eye_height_m, cosine, enter_m, leave_m);
+    const bool inside = data.shell.inside(eye_height_m, cosine, enter_m, leave_m);
     const double eye_radius_m = data.shell.ground_radius_m + eye_height_m;
     if (side == Side::kGround) {
         double ground_m = data.shell.distance_to_ground_m(eye_height_m, cosine);
