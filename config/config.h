@@ -93,6 +93,14 @@ struct Display {
     bool dither = true;
 };
 
+/// How far the picture may be off for the sake of speed.
+struct Quality {
+    /// Largest error of smooth light, 8-bit display codes, 0.1..8.
+    double error_codes = 0.5;
+    /// The same as percent of luminance at middle grey, 0.17..13; comes in place of error_codes when given.
+    std::optional<double> error_pct;
+};
+
 /// "hybrid" (Tumblin-Rushmeier by day, threshold matching by night), "linear" (measurements).
 enum class ToneOperator { kHybrid, kLinear };
 
@@ -141,6 +149,7 @@ struct Config {
     Sky sky;
     Ephemeris ephemeris;
     Display display;
+    Quality quality;
     Eye eye;
     Output output;
     Record record;

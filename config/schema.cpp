@@ -101,6 +101,16 @@ void read_display(TableReader table, Display& display) {
     table.finish();
 }
 
+void read_quality(TableReader table, Quality& quality) {
+    const Value* codes = table.number("error_codes", quality.error_codes, {0.1, 8.0, "display codes"});
+    double pct = 0.0;
+    const Value* percent = table.number("error_pct", pct, {0.17, 13.0, "%"});
+    if (percent != nullptr) quality.error_pct = pct;
+    if (codes != nullptr && percent != nullptr)
+        table.error(*percent, "error_pct", "stands beside error_codes; give one of them");
+    table.finish();
+}
+
 void read_eye(TableReader table, Eye& eye) {
     std::size_t index = 0;
     if (table.choice("operator", index, kToneNames) != nullptr) eye.tone = static_cast<ToneOperator>(index);
@@ -168,6 +178,7 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_sky(root.table("sky"), config.sky);
     read_ephemeris(root.table("ephemeris"), config.ephemeris);
     read_display(root.table("display"), config.display);
+    read_quality(root.table("quality"), config.quality);
     read_eye(root.table("eye"), config.eye);
     read_output(root.table("output"), config.output);
     read_record(root.table("record"), config.record);

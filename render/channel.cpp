@@ -23,6 +23,20 @@ double pixel_angle_rad(const Channel& channel, const Frustum& frustum) noexcept 
                     (plane.top - plane.bottom) / channel.height_px);
 }
 
+bool has_area(const Frustum& frustum) noexcept {
+    return frustum.right_rad > frustum.left_rad && frustum.top_rad > frustum.bottom_rad;
+}
+
+double finest_pixel_rad(std::span<const Channel> channels, std::span<const ChannelView> views) noexcept {
+    constexpr double kCoarsest_rad = 0.02;
+    double finest_rad = kCoarsest_rad;
+    for (std::size_t i = 0; i < std::min(channels.size(), views.size()); ++i) {
+        if (has_area(views[i].frustum))
+            finest_rad = std::min(finest_rad, pixel_angle_rad(channels[i], views[i].frustum));
+    }
+    return finest_rad;
+}
+
 glm::dmat3 body_from_ned(double yaw_rad, double pitch_rad, double roll_rad) noexcept {
     const double cy = std::cos(yaw_rad), sy = std::sin(yaw_rad);
     const double cp = std::cos(pitch_rad), sp = std::sin(pitch_rad);

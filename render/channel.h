@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
 #include <string>
 
 namespace skyig::render {
@@ -47,6 +48,14 @@ struct ImagePlane {
 
 /// Angle between neighbouring pixel centres on the view axis, the larger of the two directions, radians.
 [[nodiscard]] double pixel_angle_rad(const Channel& channel, const Frustum& frustum) noexcept;
+
+/// Whether anything can be seen through a frustum.
+[[nodiscard]] bool has_area(const Frustum& frustum) noexcept;
+
+/// pixel_angle_rad() of the finest channel that has a view with an area; 0.02 if none has. What is softened
+/// over one pixel is softened over this in all channels, so that they agree where they meet.
+[[nodiscard]] double finest_pixel_rad(std::span<const Channel> channels,
+                                      std::span<const ChannelView> views) noexcept;
 
 /// Rotation that takes north-east-down axes to the body axes (X forward, Y right, Z down) of something yawed,
 /// then pitched, then rolled (CIGI order).

@@ -13,148 +13,56 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Puts `nodes` so that each interval holds the same share of the density's integral over [low, high]; both
-// ends are nodes.
-template <class Density>
-void place_by_density(std::span<double> nodes, double low, double high, Density density) {
-    constexpr std::size_t kSteps = 2048;
-    std::array<double, kSteps + 1> sum{};
-    const double step = (high - low) / kSteps;
-    for (std::size_t i = 0; i < kSteps; ++i) {
-        sum[i + 1] = sum[i] + density(low + (static_cast<double>(i) + 0.5) * step);
-    }
-    std::size_t at = 0;
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-        const double wanted = sum[kSteps] * static_cast<double>(n) / static_cast<double>(nodes.size() - 1);
-        while (at + 1 < kSteps && sum[at + 1] < wanted)
-            ++at;
-        const double share = (wanted - sum[at]) / (sum[at + 1] - sum[at]);
-        nodes[n] = low + (static_cast<double>(at) + share) * step;
-    }
-    nodes.front() = low;
-    nodes.back() = high;
+// Where a value lies among rising nodes: the lower one and the share of the next.
+struct Place {
+    std::size_t low = 0;
+    float share = 0.0F;
+};
+
+Place place_in(std::span<const double> nodes, double value) {
+    const auto above = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, value);
+    const auto low = static_cast<std::size_t>(above - nodes.begin()) - 1;
+    const double share = (value - nodes[low]) / std::max(nodes[low + 1] - nodes[low], 1e-12);
+    return {low, static_cast<float>(std::clamp(share, 0.0, 1.0))};
 }
 
-double peak(double distance, double width) {
-    return 1.0 / (std::abs(distance) + width);
+// What linear interpolation misses half-way to the neighbours.
+glm::vec3 missed(const glm::vec3& before, const glm::vec3& here, const glm::vec3& after, double step_before,
+                 double step_after) {
+    const auto low = static_cast<float>(0.25 * step_after / (step_before + step_after));
+    const auto high = static_cast<float>(0.25 * step_before / (step_before + step_after));
+    return low * (before - here) + high * (after - here);
 }
 
-// A flat top with a soft edge.
-double hill(double distance, double width) {
-    const double part = distance / width;
-    return 1.0 / (1.0 + part * part * part * part);
+float largest_of(const glm::vec3& v) {
+    return std::max({v.x, v.y, v.z});
 }
-
-// Radians about the mirror's place within which glitter bends.
-constexpr double kGlitterWidth = 0.4;
 
 }  // namespace
 
-Dome::Dome() {
-    // Sky rows from the horizon up, ground rows from the horizon down, the two edge rows a softening angle
-    // apart.
-    const std::size_t row_count = kSkyRows + kGroundRows;
-    rows_.resize(row_count);
-    azimuths_rad_.resize(kColumns + 1);
-    vertices_.resize(row_count * (kColumns + 1));
-    directions_.resize(vertices_.size());
-}
-
-void Dome::lay_out(const DomeLayout& layout) {
-    layout_ = layout;
-    const double horizon = layout.horizon_elevation_rad;
-    const double half_edge = 0.5 * layout.edge_rad;
-    const double first = layout.first_lights ? 0.25 : 0.0;
-    const double second = layout.second_lights ? 0.25 : 0.0;
-
-    std::array<double, kSkyRows> sky{};
-    place_by_density(sky, horizon + half_edge, 0.5 * kPi, [&](double e) {
-        return 1.0 + 0.35 * peak(e - horizon, 0.002) +
-               first * peak(e - std::max(layout.first_elevation_rad, horizon), 0.03) +
-               second * peak(e - std::max(layout.second_elevation_rad, horizon), 0.03);
-    });
-    std::array<double, kGroundRows> ground{};
-    ground.fill(-0.5 * kPi);
-    const std::size_t ground_rows = layout.sea ? kGroundRows : kLandRows;
-    const auto glitter = [&](double from_mirror) {
-        return layout.sea ? hill(from_mirror, kGlitterWidth) : 0.0;
-    };
-    place_by_density(std::span(ground).last(ground_rows), -0.5 * kPi, horizon - half_edge, [&](double e) {
-        return 0.3 + 0.5 * peak(e - horizon, 0.002) +
-               16.0 * (first * glitter(e - layout.first_mirror_rad) +
-                       second * glitter(e - layout.second_mirror_rad));
-    });
-    for (std::size_t i = 0; i < kGroundRows; ++i)
-        rows_[i] = {ground[i], ground[i] - horizon, Side::kGround};
-    for (std::size_t i = 0; i < kSkyRows; ++i)
-        rows_[kGroundRows + i] = {sky[i], sky[i] - horizon, Side::kSky};
-    // The colours of the edge rows belong to the horizon itself; only their place is spread over one pixel.
-    rows_[kGroundRows - 1].above_horizon_rad = 0.0;
-    rows_[kGroundRows].above_horizon_rad = 0.0;
-
-    // Low light lays a narrow path on the water, high light a wide one.
-    const double width = layout.sea ? 0.01 : 0.03;
-    place_by_density(azimuths_rad_, -kPi, kPi, [&](double a) {
-        const double from_second = std::remainder(a - layout.second_azimuth_rad, 2.0 * kPi);
-        return 0.8 + first * (peak(a, width) + 16.0 * glitter(a)) +
-               second * (peak(from_second, width) + 16.0 * glitter(from_second));
-    });
-
-    std::size_t out = 0;
-    for (const Row& row : rows_) {
-        for (const double azimuth : azimuths_rad_) {
-            directions_[out] = glm::vec3{direction_of({row.elevation_rad, azimuth})};
-            vertices_[out].direction = directions_[out];
-            ++out;
-        }
-    }
-    patches_.bound(directions_);
-}
-
-void Dome::shade(const SkyLight& light, const shaders64::ToneParameters& tone) {
-    const auto tone32 = eye::single_precision(tone);
-    const double turn = dome_azimuth_rad(light);
-    std::size_t out = 0;
-    for (const Row& row : rows_) {
-        if (row.elevation_rad <= -0.5 * kPi && out > 0) {
-            for (std::size_t i = 0; i <= kColumns; ++i, ++out)
-                vertices_[out].encoded = vertices_[out - kColumns - 1].encoded;
-            continue;
-        }
-        const double elevation = light.horizon_elevation_rad + row.above_horizon_rad;
-        for (const double azimuth : azimuths_rad_) {
-            const glm::vec3 rgb = light.rgb_cd_m2(elevation, turn + azimuth, row.side);
-            vertices_[out++].encoded = shaders32::shown(rgb, tone32);
-        }
-    }
-}
-
-DomeLayout dome_layout(const SkyLight& light, double edge_rad) noexcept {
+DomeLayout dome_layout(const SkyLight& light, double edge_rad, double adaptation_cd_m2,
+                       std::uint64_t air) noexcept {
     DomeLayout layout;
     layout.horizon_elevation_rad = light.horizon_elevation_rad;
     layout.edge_rad = edge_rad;
+    layout.adaptation_cd_m2 = adaptation_cd_m2;
+    layout.air = air;
+    layout.sea = light.sea != nullptr;
     const bool sun = light.sun.view != nullptr;
     const bool moon = light.moon.view != nullptr;
     const LitAir& first = sun ? light.sun : light.moon;
     layout.first_lights = sun || moon;
-    layout.first_elevation_rad = first.source.elevation_rad;
+    if (layout.first_lights) {
+        layout.azimuth_rad = first.source.azimuth_rad;
+        layout.first_elevation_rad = first.source.elevation_rad;
+    }
     layout.second_lights = sun && moon;
-    layout.second_elevation_rad = light.moon.source.elevation_rad;
-    layout.second_azimuth_rad =
-        layout.second_lights
-            ? std::remainder(light.moon.source.azimuth_rad - light.sun.source.azimuth_rad, 2.0 * kPi)
-            : 0.0;
-    layout.sea = light.sea != nullptr;
-    if (layout.sea) {
-        layout.first_mirror_rad = sky::mirror_elevation_rad(light.eye_height_m, layout.first_elevation_rad);
-        layout.second_mirror_rad = sky::mirror_elevation_rad(light.eye_height_m, layout.second_elevation_rad);
+    if (layout.second_lights) {
+        layout.second_elevation_rad = light.moon.source.elevation_rad;
+        layout.second_azimuth_rad =
+            std::remainder(light.moon.source.azimuth_rad - light.sun.source.azimuth_rad, 2.0 * kPi);
     }
     return layout;
-}
-
-double dome_azimuth_rad(const SkyLight& light) noexcept {
-    if (light.sun.view != nullptr) return light.sun.source.azimuth_rad;
-    return light.moon.view != nullptr ? light.moon.source.azimuth_rad : 0.0;
 }
 
 bool still_serves(const DomeLayout& held, const DomeLayout& wanted) noexcept {
@@ -164,18 +72,234 @@ bool still_serves(const DomeLayout& held, const DomeLayout& wanted) noexcept {
     };
     return held.edge_rad == wanted.edge_rad && held.first_lights == wanted.first_lights &&
            held.second_lights == wanted.second_lights &&
-           std::abs(held.horizon_elevation_rad - wanted.horizon_elevation_rad) < 0.05 * wanted.edge_rad &&
-           held.sea == wanted.sea && near(held.first_mirror_rad, wanted.first_mirror_rad) &&
-           near(held.second_mirror_rad, wanted.second_mirror_rad) &&
+           std::abs(held.horizon_elevation_rad - wanted.horizon_elevation_rad) <
+               1e-4 + 0.1 * std::abs(held.horizon_elevation_rad) &&
            near(held.first_elevation_rad, wanted.first_elevation_rad) &&
            near(held.second_elevation_rad, wanted.second_elevation_rad) &&
            near(held.second_azimuth_rad, wanted.second_azimuth_rad);
 }
 
-glm::dmat3 Dome::enu_from_mesh(double azimuth_rad) noexcept {
+bool still_fits(const DomeLayout& held, const DomeLayout& wanted) noexcept {
+    return held.air == wanted.air && held.sea == wanted.sea &&
+           std::abs(held.adaptation_cd_m2 - wanted.adaptation_cd_m2) < 0.1 * held.adaptation_cd_m2;
+}
+
+Dome::Dome()
+    : patches_(static_cast<std::uint32_t>(DomeBend::kMost.rows()),
+               static_cast<std::uint32_t>(DomeBend::kMost.columns)) {
+    for (auto* rows : {&rows_, &old_rows_})
+        rows->reserve(static_cast<std::size_t>(DomeBend::kMost.rows() + 1));
+    for (auto* columns : {&azimuths_rad_, &old_azimuths_rad_})
+        columns->reserve(static_cast<std::size_t>(DomeBend::kMost.columns + 1));
+    vertices_.reserve(kMaxVertices);
+    for (auto* each : {&directions_, &from_, &to_, &codes_})
+        each->reserve(kMaxVertices);
+    rising_.reserve(kMaxVertices);
+}
+
+// The two rows at the horizon stand where its softness ends, one quad apart.
+void Dome::place_rows(const DomeBend& bend) {
+    constexpr auto kMostRows =
+        static_cast<std::size_t>(std::max(DomeBend::kMost.sky_rows, DomeBend::kMost.ground_rows));
+    std::array<double, kMostRows + 1> nodes{};
+    rows_.clear();
+    const std::span<double> ground = std::span{nodes}.first(static_cast<std::size_t>(size_.ground_rows) + 1);
+    bend.place_ground(ground);
+    for (const double above : ground)
+        rows_.push_back({above, Side::kGround});
+    const std::span<double> sky = std::span{nodes}.first(static_cast<std::size_t>(size_.sky_rows) + 1);
+    bend.place_sky(sky);
+    for (const double above : sky)
+        rows_.push_back({above, Side::kSky});
+    azimuths_rad_.resize(static_cast<std::size_t>(size_.columns) + 1);
+    bend.place_columns(azimuths_rad_);
+}
+
+void Dome::lay_out(const DomeLayout& layout, const DomeBend& bend, const DomeSize& size) {
+    settle_mix();
+    laid_ = true;
+    std::swap(rows_, old_rows_);
+    std::swap(azimuths_rad_, old_azimuths_rad_);
+    const double turn_rad = layout.azimuth_rad - layout_.azimuth_rad;
+    const bool same_size = !old_rows_.empty() && size == size_;
+    layout_ = layout;
+    size_ = size;
+    place_rows(bend);
+    const std::size_t count = rows_.size() * stride();
+    vertices_.resize(count);
+    directions_.resize(count);
+    from_.resize(count);
+    const double horizon = layout_.horizon_elevation_rad;
+    std::size_t out = 0;
+    for (const Row& row : rows_) {
+        for (const double azimuth : azimuths_rad_) {
+            directions_[out] = glm::vec3{direction_of({horizon + row.above_horizon_rad, azimuth})};
+            vertices_[out].direction = directions_[out];
+            ++out;
+        }
+    }
+    if (!same_size)
+        patches_.resize(static_cast<std::uint32_t>(size.rows()), static_cast<std::uint32_t>(size.columns));
+    patches_.bound(directions_);
+    if (!old_rows_.empty()) carry_over(old_rows_, old_azimuths_rad_, turn_rad);
+    std::swap(from_, to_);
+    from_.resize(count);
+    to_.resize(count);
+    codes_.resize(count);
+}
+
+void Dome::settle_mix() noexcept {
+    if (share_ >= 1.0) return;
+    const auto share = static_cast<float>(share_);
+    for (std::size_t i = 0; i < to_.size(); ++i) {
+        to_[i] = glm::mix(from_[i], to_[i], share);
+        vertices_[i].to = glm::mix(vertices_[i].from, vertices_[i].to, share);
+    }
+    share_ = 1.0;
+}
+
+// Light of old vertices, at `to_`, to new ones, at `from_`.
+void Dome::carry_over(const std::vector<Row>& rows, const std::vector<double>& azimuths_rad,
+                      double turn_rad) {
+    const std::size_t old_stride = azimuths_rad.size();
+    const auto first_sky =
+        std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.side == Side::kSky; });
+    std::size_t out = 0;
+    for (const Row& row : rows_) {
+        const auto begin = row.side == Side::kSky ? first_sky : rows.begin();
+        const auto end = row.side == Side::kSky ? rows.end() : first_sky;
+        const auto above = std::upper_bound(begin + 1, end - 1, row.above_horizon_rad,
+                                            [](double a, const Row& r) { return a < r.above_horizon_rad; });
+        const Row& low = *(above - 1);
+        const double gap = above->above_horizon_rad - low.above_horizon_rad;
+        const auto up = static_cast<float>(
+            std::clamp((row.above_horizon_rad - low.above_horizon_rad) / std::max(gap, 1e-12), 0.0, 1.0));
+        const glm::vec3* lower = &to_[static_cast<std::size_t>(above - 1 - rows.begin()) * old_stride];
+        const glm::vec3* upper = lower + old_stride;
+        for (const double azimuth : azimuths_rad_) {
+            const Place at = place_in(azimuths_rad, std::remainder(azimuth + turn_rad, 2.0 * kPi));
+            from_[out++] = glm::mix(glm::mix(lower[at.low], lower[at.low + 1], at.share),
+                                    glm::mix(upper[at.low], upper[at.low + 1], at.share), up);
+        }
+    }
+}
+
+void Dome::look_up(const SkyLight& light, double azimuth_rad, Change change) {
+    if (change == Change::kReplaced) {
+        settle_mix();
+        std::swap(from_, to_);
+        share_ = 0.0;
+        replaced_ = true;
+    } else if (change == Change::kAtOnce) {
+        share_ = 1.0;
+    }
+    const bool shift = change == Change::kScaled && share_ < 1.0;
+    std::size_t out = 0;
+    for (const Row& row : rows_) {
+        const double elevation = light.horizon_elevation_rad + row.above_horizon_rad;
+        for (const double azimuth : azimuths_rad_) {
+            const glm::vec3 rgb = light.rgb_cd_m2(elevation, azimuth_rad + azimuth, row.side);
+            if (shift) from_[out] += rgb - to_[out];
+            to_[out++] = rgb;
+        }
+    }
+}
+
+glm::vec3 Dome::bend_at(std::size_t row, std::size_t column) const noexcept {
+    constexpr float kMost = 1.0F / 255.0F;
+    const glm::vec3* here = &codes_[row * stride() + column];
+    glm::vec3 sum{0.0F};
+    if (row > 0 && row + 1 < rows_.size() && rows_[row - 1].side == rows_[row + 1].side) {
+        sum += missed(*(here - stride()), *here, *(here + stride()),
+                      rows_[row].above_horizon_rad - rows_[row - 1].above_horizon_rad,
+                      rows_[row + 1].above_horizon_rad - rows_[row].above_horizon_rad);
+    }
+    // The first and the last column are the same meridian.
+    const std::size_t last = stride() - 1;
+    const bool ends = column == 0 || column == last;
+    const glm::vec3* row_begin = &codes_[row * stride()];
+    sum += missed(
+        ends ? row_begin[last - 1] : *(here - 1), *here, ends ? row_begin[1] : *(here + 1),
+        ends ? azimuths_rad_[last] - azimuths_rad_[last - 1]
+             : azimuths_rad_[column] - azimuths_rad_[column - 1],
+        ends ? azimuths_rad_[1] - azimuths_rad_[0] : azimuths_rad_[column + 1] - azimuths_rad_[column]);
+    return glm::clamp(sum, -kMost, kMost);
+}
+
+// Between vertices of a curved colour interpolation errs to one side; vertices moved half of that to the
+// other halve the largest error.
+void Dome::encode_one(const std::vector<glm::vec3>& light, const shaders32::ToneParameters& tone,
+                      glm::vec3 DomeVertex::*out) {
+    for (std::size_t i = 0; i < light.size(); ++i)
+        codes_[i] = shaders32::shown(light[i], tone);
+    std::size_t i = 0;
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+        for (std::size_t column = 0; column < stride(); ++column, ++i)
+            vertices_[i].*out = glm::clamp(codes_[i] - 0.5F * bend_at(row, column), 0.0F, 1.0F);
+    }
+}
+
+void Dome::encode(const shaders64::ToneParameters& tone) {
+    const auto tone32 = eye::single_precision(tone);
+    if (replaced_ && !laid_) {
+        // What is on the screen now.
+        for (DomeVertex& vertex : vertices_)
+            vertex.from = vertex.to;
+    } else if (share_ < 1.0) {
+        encode_one(from_, tone32, &DomeVertex::from);
+    }
+    encode_one(to_, tone32, &DomeVertex::to);
+    if (replaced_) begin_fade();
+    replaced_ = laid_ = false;
+    if (share_ < 1.0) return;
+    for (DomeVertex& vertex : vertices_)
+        vertex.from = vertex.to;
+}
+
+double Dome::split_quads(const SkyLight& light, double azimuth_rad, const shaders64::ToneParameters& tone) {
+    const auto tone32 = eye::single_precision(tone);
+    rising_.assign(static_cast<std::size_t>(size_.rows()) * static_cast<std::size_t>(size_.columns), 0);
+    float largest = 0.0F;
+    std::size_t quad = 0;
+    for (std::size_t row = 0; row + 1 < rows_.size(); ++row) {
+        const Row& low = rows_[row];
+        const Row& high = rows_[row + 1];
+        const double elevation =
+            light.horizon_elevation_rad + 0.5 * (low.above_horizon_rad + high.above_horizon_rad);
+        const glm::vec3* code = &codes_[row * stride()];
+        for (std::size_t column = 0; column + 1 < stride(); ++column, ++quad, ++code) {
+            if (low.side != high.side) continue;
+            const double azimuth = azimuth_rad + 0.5 * (azimuths_rad_[column] + azimuths_rad_[column + 1]);
+            const glm::vec3 middle = shaders32::shown(light.rgb_cd_m2(elevation, azimuth, low.side), tone32);
+            const float falling = largest_of(glm::abs(0.5F * (code[1] + code[stride()]) - middle));
+            const float rising = largest_of(glm::abs(0.5F * (code[0] + code[stride() + 1]) - middle));
+            rising_[quad] = rising < falling ? 1 : 0;
+            largest = std::max(largest, std::min(rising, falling));
+        }
+    }
+    patches_.split(rising_);
+    return 0.5 * 255.0 * static_cast<double>(largest);
+}
+
+void Dome::begin_fade() noexcept {
+    float largest = 0.0F;
+    for (const DomeVertex& vertex : vertices_)
+        largest = std::max(largest, largest_of(glm::abs(vertex.to - vertex.from)));
+    const double frames = std::ceil(255.0 * static_cast<double>(largest) / kFadeStep_codes);
+    fade_step_ = 1.0 / std::clamp(frames, 1.0, static_cast<double>(kLongestFade));
+}
+
+void Dome::step() noexcept {
+    share_ = std::min(1.0, share_ + fade_step_);
+    if (share_ > 1.0 - 1e-9) share_ = 1.0;
+}
+
+glm::dmat4 Dome::enu_from_mesh(double azimuth_rad, double horizon_rad) const noexcept {
     const double c = std::cos(azimuth_rad);
     const double s = std::sin(azimuth_rad);
-    return {glm::dvec3{c, -s, 0.0}, glm::dvec3{s, c, 0.0}, glm::dvec3{0.0, 0.0, 1.0}};
+    const double shift = std::sin(horizon_rad - layout_.horizon_elevation_rad) / std::cos(horizon_rad);
+    return {glm::dvec4{c, -s, 0.0, 0.0}, glm::dvec4{s, c, 0.0, 0.0}, glm::dvec4{0.0, 0.0, 1.0, 0.0},
+            glm::dvec4{0.0, 0.0, shift, 0.0}};
 }
 
 }  // namespace skyig::render

@@ -1,6 +1,6 @@
 // The mesh that carries all smooth light: vertices are directions round the eye, colours are toned at the
-// vertices, once a frame at most, for all channels. Rows crowd at the horizon and at the height of the light
-// source, columns towards its azimuth. Free of GL.
+// vertices, for all channels. Rows and columns stand where the toned light bends. What changes because a
+// table was replaced fades in over some frames. Free of GL.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "render/dome_bend.h"
 #include "render/dome_patches.h"
 #include "render/shaders/shared.h"
 #include "render/sky_light.h"
@@ -15,9 +16,11 @@
 namespace skyig::render {
 
 /// As the vertex shader sky/dome.vert takes it. Mesh frame: y towards the light source's azimuth, z up.
+/// Colours are display codes 0..1 before dither: at the begin of a fade and at its end.
 struct DomeVertex {
     glm::vec3 direction;
-    glm::vec3 encoded;
+    glm::vec3 from;
+    glm::vec3 to;
 };
 
 /// What decides where rows and columns lie.
@@ -25,66 +28,110 @@ struct DomeLayout {
     double horizon_elevation_rad = 0.0;
     /// Angle over which the horizon's edge is softened, radians.
     double edge_rad = 1e-3;
-    /// The light source that the mesh is turned to, and whether it draws vertices to itself.
+    /// Azimuth that the mesh is turned to: the Sun's if it lights the air, else the Moon's.
+    double azimuth_rad = 0.0;
     double first_elevation_rad = 0.0;
     bool first_lights = false;
-    /// A second one, its azimuth from the first.
+    /// A second source, its azimuth from the first.
     double second_elevation_rad = 0.0;
     double second_azimuth_rad = 0.0;
     bool second_lights = false;
-    /// The ground mirrors them: finer rows where, finer columns below them.
+    double adaptation_cd_m2 = 1.0;
+    /// LightTables::air_in_use()
+    std::uint64_t air = 0;
+    /// The ground mirrors the sources.
     bool sea = false;
-    double first_mirror_rad = -1.5;
-    double second_mirror_rad = -1.5;
 };
 
-/// Where the mesh is best laid for this light: turned to the Sun if it lights the air, else to the Moon.
-[[nodiscard]] DomeLayout dome_layout(const SkyLight& light, double edge_rad) noexcept;
-/// Azimuth that the mesh of dome_layout() is turned to.
-[[nodiscard]] double dome_azimuth_rad(const SkyLight& light) noexcept;
-/// Whether a mesh laid out for `held` still serves `wanted`: no edge off by 1/20 of its softening, no source
-/// by 0.3 deg.
+[[nodiscard]] DomeLayout dome_layout(const SkyLight& light, double edge_rad, double adaptation_cd_m2,
+                                     std::uint64_t air) noexcept;
+
+/// Whether a mesh laid out for `held` still serves `wanted`: no source off by 0.3 deg, the horizon by a tenth
+/// of its dip.
 [[nodiscard]] bool still_serves(const DomeLayout& held, const DomeLayout& wanted) noexcept;
+/// Whether its nodes still stand where the light bends: the same air and ground, the adaptation within a
+/// tenth.
+[[nodiscard]] bool still_fits(const DomeLayout& held, const DomeLayout& wanted) noexcept;
 
 class Dome {
   public:
-    static constexpr int kColumns = 112;
-    static constexpr int kSkyRows = 64;
-    static constexpr int kGroundRows = 64;
-    /// Of them over land, which is smooth: the others lie at the nadir and cost nothing.
-    static constexpr int kLandRows = 40;
+    /// Colours of a replaced table fade in by at most this much a frame, unless that takes kLongestFade
+    /// frames.
+    static constexpr double kFadeStep_codes = 0.125;
+    static constexpr int kLongestFade = 60;
+    static constexpr std::size_t kMaxVertices =
+        static_cast<std::size_t>(DomeBend::kMost.sky_rows + DomeBend::kMost.ground_rows + 2) *
+        static_cast<std::size_t>(DomeBend::kMost.columns + 1);
 
+    /// Allocates for the largest size; nothing later does.
     Dome();
 
-    /// Places the vertices. Columns and rows are counted as above whatever the layout.
-    void lay_out(const DomeLayout& layout);
-    /// Colours the vertices: display code 0..1, before dither.
-    void shade(const SkyLight& light, const shaders64::ToneParameters& tone);
+    /// Places the vertices; what they showed before is carried over to them.
+    void lay_out(const DomeLayout& layout, const DomeBend& bend, const DomeSize& size);
+
+    /// Why the light is asked anew.
+    enum class Change {
+        kAtOnce,    ///< another scene altogether
+        kReplaced,  ///< a table was replaced or the mesh laid out anew: fades in
+        kScaled     ///< the same tables by other factors: shows at once, a running fade goes on
+    };
+    /// Asks the light of every vertex, absolute. \param azimuth_rad  of the mesh in this frame
+    void look_up(const SkyLight& light, double azimuth_rad, Change change);
+    /// Colours the vertices.
+    void encode(const shaders64::ToneParameters& tone);
+    /// Cuts each quad along the diagonal that is closer to the light in its middle. Precondition: encode()
+    /// with the same light. \return the largest error in the middle of a quad, display codes
+    double split_quads(const SkyLight& light, double azimuth_rad, const shaders64::ToneParameters& tone);
+    /// One frame further in the fade. To be called once a frame.
+    void step() noexcept;
 
     [[nodiscard]] std::span<const DomeVertex> vertices() const noexcept { return vertices_; }
     [[nodiscard]] std::span<const std::uint32_t> indices() const noexcept { return patches_.indices(); }
+    /// How far the fade is, 0..1: 1 shows DomeVertex::to.
+    [[nodiscard]] double share() const noexcept { return share_; }
     /// What of the indices a view needs; valid until the next call. \param clip_from_mesh  as the vertex
     /// shader has it
     [[nodiscard]] std::span<const IndexRange> visible(const glm::dmat4& clip_from_mesh) noexcept {
         return patches_.visible(clip_from_mesh);
     }
     [[nodiscard]] const DomeLayout& layout() const noexcept { return layout_; }
+    [[nodiscard]] const DomeSize& size() const noexcept { return size_; }
 
-    /// Turns mesh axes about the vertical so that y points to `azimuth_rad`.
-    [[nodiscard]] static glm::dmat3 enu_from_mesh(double azimuth_rad) noexcept;
+    /// Turns mesh axes about the vertical so that y points to `azimuth_rad`, and shifts all vertices along it
+    /// so that the horizon stands at `horizon_rad`: to be applied to (direction, 1).
+    [[nodiscard]] glm::dmat4 enu_from_mesh(double azimuth_rad, double horizon_rad) const noexcept;
 
   private:
     struct Row {
-        double elevation_rad;      // of the vertices
-        double above_horizon_rad;  // where the colour is taken
+        double above_horizon_rad;
         Side side;
     };
-    std::vector<Row> rows_;
-    std::vector<double> azimuths_rad_;
-    std::vector<DomeVertex> vertices_;
-    DomePatches patches_{kSkyRows + kGroundRows - 1, kColumns};
-    std::vector<glm::vec3> directions_;
+    [[nodiscard]] std::size_t stride() const noexcept { return azimuths_rad_.size(); }
+    void place_rows(const DomeBend& bend);
+    void settle_mix() noexcept;
+    void carry_over(const std::vector<Row>& rows, const std::vector<double>& azimuths_rad, double turn_rad);
+    void encode_one(const std::vector<glm::vec3>& light, const shaders32::ToneParameters& tone,
+                    glm::vec3 DomeVertex::*out);
+    [[nodiscard]] glm::vec3 bend_at(std::size_t row, std::size_t column) const noexcept;
+    void begin_fade() noexcept;
+
     DomeLayout layout_;
+    DomeSize size_;
+    std::vector<Row> rows_;
+    std::vector<Row> old_rows_;
+    std::vector<double> azimuths_rad_;
+    std::vector<double> old_azimuths_rad_;
+    std::vector<DomeVertex> vertices_;
+    std::vector<glm::vec3> directions_;
+    std::vector<glm::vec3> from_;  // linear Rec.709, cd/m2
+    std::vector<glm::vec3> to_;
+    std::vector<glm::vec3> codes_;  // of `to_`, before they are moved to balance the error
+    std::vector<std::uint8_t> rising_;
+    DomePatches patches_;
+    double share_ = 1.0;
+    double fade_step_ = 1.0;
+    bool replaced_ = false;  // by the last look_up()
+    bool laid_ = false;      // anew, and not encoded since
 };
 
 }  // namespace skyig::render

@@ -6,25 +6,32 @@
 
 namespace skyig::render {
 
-DomePatches::DomePatches(std::uint32_t rows, std::uint32_t columns) : stride_(columns + 1) {
+DomePatches::DomePatches(std::uint32_t rows, std::uint32_t columns) {
+    const auto patches = [](std::uint32_t quads) { return std::size_t{(quads + kSide - 1) / kSide}; };
     indices_.reserve(std::size_t{rows} * columns * 6);
+    patches_.reserve(patches(rows) * patches(columns));
+    visible_.reserve(patches(rows) * patches(columns));
+    resize(rows, columns);
+}
+
+void DomePatches::resize(std::uint32_t rows, std::uint32_t columns) {
+    stride_ = columns + 1;
+    indices_.clear();
+    patches_.clear();
     for (std::uint32_t row = 0; row < rows; row += kSide) {
         for (std::uint32_t column = 0; column < columns; column += kSide) {
             Patch patch{row, column, std::min(kSide, rows - row), std::min(kSide, columns - column), {}};
             patch.range.first = indices_.size();
-            for (std::uint32_t r = row; r < row + patch.rows; ++r) {
-                for (std::uint32_t c = column; c < column + patch.columns; ++c) {
-                    const std::uint32_t corner = r * stride_ + c;
-                    for (const std::uint32_t index : {corner, corner + 1, corner + stride_, corner + stride_,
-                                                      corner + 1, corner + stride_ + 1})
-                        indices_.push_back(index);
-                }
-            }
-            patch.range.count = indices_.size() - patch.range.first;
+            patch.range.count = std::size_t{patch.rows} * patch.columns * 6;
+            indices_.resize(patch.range.first + patch.range.count);
             patches_.push_back(patch);
         }
     }
-    visible_.reserve(patches_.size());
+    cut([](std::size_t) { return false; });
+}
+
+void DomePatches::split(std::span<const std::uint8_t> rising) noexcept {
+    cut([rising](std::size_t quad) { return rising[quad] != 0; });
 }
 
 void DomePatches::bound(std::span<const glm::vec3> directions) noexcept {
@@ -49,18 +56,20 @@ void DomePatches::bound(std::span<const glm::vec3> directions) noexcept {
 
 std::span<const IndexRange> DomePatches::visible(const glm::dmat4& clip_from_dome) noexcept {
     const auto row = [&](int i) {
-        return glm::dvec3{clip_from_dome[0][i], clip_from_dome[1][i], clip_from_dome[2][i]};
+        return glm::dvec4{clip_from_dome[0][i], clip_from_dome[1][i], clip_from_dome[2][i],
+                          clip_from_dome[3][i]};
     };
-    const glm::dvec3 x = row(0);
-    const glm::dvec3 y = row(1);
-    const glm::dvec3 w = row(3);
-    // Each points into the view.
-    const std::array<glm::dvec3, 4> sides{glm::normalize(w + x), glm::normalize(w - x), glm::normalize(w + y),
-                                          glm::normalize(w - y)};
+    const glm::dvec4 x = row(0);
+    const glm::dvec4 y = row(1);
+    const glm::dvec4 w = row(3);
+    // Each points into the view; its last component is what the shift of all vertices adds.
+    std::array<glm::dvec4, 4> sides{w + x, w - x, w + y, w - y};
+    for (glm::dvec4& side : sides)
+        side /= glm::length(glm::dvec3{side});
     visible_.clear();
     for (const Patch& patch : patches_) {
-        const bool outside = std::any_of(sides.begin(), sides.end(), [&](const glm::dvec3& side) {
-            return glm::dot(side, patch.axis) < -patch.sine;
+        const bool outside = std::any_of(sides.begin(), sides.end(), [&](const glm::dvec4& side) {
+            return glm::dot(glm::dvec3{side}, patch.axis) + std::max(side.w, 0.0) < -patch.sine;
         });
         if (outside) continue;
         if (!visible_.empty() && visible_.back().first + visible_.back().count == patch.range.first)

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/night/moon_light.h"
+#include "render/sky/staleness.h"
 
 namespace skyig::render {
 
@@ -37,7 +38,7 @@ double sunlight_lux(const sky::AirModel& model) {
 
 }  // namespace
 
-LightTables::LightTables() = default;
+LightTables::LightTables(const sky::SkyViewSize& size) : sun_(size), moon_(size) {}
 
 sky::RefractionRow LightTables::refraction(const Scene& scene) const noexcept {
     const double pressure_hpa = scene.air.model_enabled ? scene.air.pressure_hpa : 0.0;
@@ -67,6 +68,7 @@ SkySettings LightTables::fitting(const SkySettings& asked) const noexcept {
 }
 
 void LightTables::update_air(const Scene& scene, const Plan& plan) {
+    ++air_rests_;
     if (!air_) {
         air_.emplace(sky::air_model(scene.air, scene.ground), sky::models::orders_of(scene.sky.model));
         ++air_revision_;
@@ -82,9 +84,31 @@ void LightTables::update_air(const Scene& scene, const Plan& plan) {
         }
         return;
     }
-    if (!plan.needs(Pass::kAirTables)) return;
-    builder_.request(sky::air_model(scene.air, scene.ground), sky::models::orders_of(scene.sky.model));
+    if (!plan.needs(Pass::kAirTables)) {
+        last_wanted_.reset();
+        return;
+    }
+    const sky::AirModel wanted = sky::air_model(scene.air, scene.ground);
+    const bool settled = last_wanted_ == wanted;
+    last_wanted_ = wanted;
+    if (!settled && air_rests_ < kAirIntervalFrames) return;
+    builder_.request(wanted, sky::models::orders_of(scene.sky.model));
     next_air_age_ = 0;
+    air_rests_ = 0;
+}
+
+void LightTables::Trend::follow(double now) noexcept {
+    const double step = started_ ? now - last_ : 0.0;
+    started_ = true;
+    a_frame_ = step * step_ > 0.0 ? std::copysign(std::min(std::abs(step), std::abs(step_)), step) : 0.0;
+    step_ = step;
+    last_ = now;
+}
+
+double LightTables::Trend::ahead(double step) const noexcept {
+    constexpr double kBuildFrames = 6.0;
+    constexpr double kFarthestFrames = 300.0;
+    return kBuildFrames * a_frame_ + std::clamp(kFarthestFrames * a_frame_, -0.8 * step, 0.8 * step);
 }
 
 void LightTables::update_sea(const Scene& scene) noexcept {
@@ -107,11 +131,11 @@ bool LightTables::same_sea(const Made& made, const Scene& scene) const noexcept 
 }
 
 void LightTables::update_view(View& view, const Wanted& wanted) {
-    const auto begin = [&] {
-        view.back.begin(sky_, *air_, wanted.height_m, wanted.elevation_rad, wanted.by_sun);
-        if (sea_) view.back_sea.begin(*air_, *sea_, wanted.height_m, wanted.elevation_rad);
+    const auto begin = [&](double elevation_rad, double height_m) {
+        view.back.begin(sky_, *air_, height_m, elevation_rad, wanted.by_sun);
+        if (sea_) view.back_sea.begin(*air_, *sea_, height_m, elevation_rad);
         view.back_made = {air_revision_, sky_, sea_ ? std::optional(sea_->variance()) : std::nullopt,
-                          wanted.elevation_rad, wanted.height_m};
+                          elevation_rad, height_m};
         view.building = true;
     };
     const auto take_over = [&] {
@@ -127,7 +151,7 @@ void LightTables::update_view(View& view, const Wanted& wanted) {
                       std::abs(latest.elevation_rad - wanted.elevation_rad) > 0.5 * kDegree ||
                       std::abs(latest.height_m - wanted.height_m) > 200.0 + 0.2 * std::abs(latest.height_m);
     if (wanted.needed && lost) {
-        begin();
+        begin(wanted.elevation_rad, wanted.height_m);
         if (!wanted.matters) view.front_made.air = 0;
         if (wanted.matters) {
             view.back.build_all();
@@ -137,7 +161,7 @@ void LightTables::update_view(View& view, const Wanted& wanted) {
             return;
         }
     } else if (wanted.needed && !view.building) {
-        begin();
+        begin(wanted.elevation_rad + wanted.elevation_ahead_rad, wanted.height_m + wanted.height_ahead_m);
     }
     if (!view.building) return;
     const bool sky_done = view.back.build_rows(kRowsAFrame);
@@ -152,9 +176,15 @@ void LightTables::update(const Scene& scene, const Plan& plan) {
     sky_ = fitting(scene.sky);
     const double sun_rad = horizontal_of(scene.sun.direction_enu).elevation_rad;
     const double moon_rad = horizontal_of(scene.moon.direction_enu).elevation_rad;
-    update_view(sun_, {plan.needs(Pass::kSunSky), plan.sun_share > 0.0, true, sun_rad, scene.eye.height_m});
-    update_view(moon_,
-                {plan.needs(Pass::kMoonSky), plan.moon_share > 0.0, false, moon_rad, scene.eye.height_m});
+    const double height_m = scene.eye.height_m;
+    sun_trend_.follow(sun_rad);
+    moon_trend_.follow(moon_rad);
+    height_trend_.follow(height_m);
+    const double height_ahead_m = height_trend_.ahead(sky::height_step_m(height_m));
+    update_view(sun_, {plan.needs(Pass::kSunSky), plan.sun_share > 0.0, true, sun_rad,
+                       sun_trend_.ahead(sky::source_step_rad(sun_rad)), height_m, height_ahead_m});
+    update_view(moon_, {plan.needs(Pass::kMoonSky), plan.moon_share > 0.0, false, moon_rad,
+                        moon_trend_.ahead(sky::source_step_rad(moon_rad)), height_m, height_ahead_m});
 }
 
 SkyLight LightTables::light(const Scene& scene, const Plan& plan,

@@ -4,6 +4,7 @@
 // measured time; should the machine need longer for new air than those frames last, that one frame waits.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -25,8 +26,11 @@ class LightTables {
     static constexpr std::uint64_t kAirLatencyFrames = 30;
     static constexpr int kRowsAFrame = 10;
     static constexpr int kSeaRowsAFrame = 4;
+    /// Air that changes in every frame is asked for once in so many.
+    static constexpr std::uint64_t kAirIntervalFrames = 90;
 
-    LightTables();
+    /// \param size  of the direction tables
+    explicit LightTables(const sky::SkyViewSize& size = {});
     LightTables(const LightTables&) = delete;
     LightTables& operator=(const LightTables&) = delete;
 
@@ -51,6 +55,11 @@ class LightTables {
     /// Whether the last update() replaced a table because Sun, Moon or eye had jumped.
     [[nodiscard]] bool jumped() const noexcept { return jumped_; }
 
+    /// Rises with every new air, once a table made of it is in use.
+    [[nodiscard]] std::uint64_t air_in_use() const noexcept {
+        return std::max(sun_.front_made.air, moon_.front_made.air);
+    }
+
     /// Precondition: update() was called.
     [[nodiscard]] const sky::AirTables& air() const noexcept { return *air_; }
 
@@ -67,6 +76,8 @@ class LightTables {
         double height_m = 0.0;
     };
     struct View {
+        explicit View(const sky::SkyViewSize& size) : front(size), back(size) {}
+
         sky::models::DaySky front;
         sky::models::DaySky back;
         sky::SeaView front_sea;
@@ -75,13 +86,29 @@ class LightTables {
         Made back_made;
         bool building = false;
     };
+    /// How fast something moves, a frame: the smaller of its last two steps, 0 where they disagree.
+    class Trend {
+      public:
+        void follow(double now) noexcept;
+        /// What it will have gained when a table begun now is half used up. \param step  by which it is then
+        /// off
+        [[nodiscard]] double ahead(double step) const noexcept;
+
+      private:
+        bool started_ = false;
+        double last_ = 0.0;
+        double step_ = 0.0;
+        double a_frame_ = 0.0;
+    };
     /// What a view is to be made for.
     struct Wanted {
         bool needed = false;
         bool matters = false;
         bool by_sun = true;
         double elevation_rad = 0.0;
+        double elevation_ahead_rad = 0.0;
         double height_m = 0.0;
+        double height_ahead_m = 0.0;
     };
     void update_air(const Scene& scene, const Plan& plan);
     void update_sea(const Scene& scene) noexcept;
@@ -95,7 +122,12 @@ class LightTables {
     SkySettings sky_;  // the scene's, or those before it until the air for its model is there
     std::uint64_t air_revision_ = 0;
     AirBuilder builder_;
-    std::optional<std::uint64_t> next_air_age_;  // frames since the request, if there is one
+    std::optional<std::uint64_t> next_air_age_;     // frames since the request, if there is one
+    std::uint64_t air_rests_ = kAirIntervalFrames;  // frames since air was last asked for
+    std::optional<sky::AirModel> last_wanted_;      // while it is not the one in use
+    Trend sun_trend_;
+    Trend moon_trend_;
+    Trend height_trend_;
 
     View sun_;
     View moon_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/dome_bend.h"
 #include "render/geometry.h"
 #include "render/sky/staleness.h"
 
@@ -12,14 +13,12 @@ namespace {
 
 constexpr double kDegree = glm::radians(1.0);
 
-// A source moves this far before its table is stale: 1 % of luminance in the steepest twilight.
-constexpr double kStaleAngle_rad = 0.01 * kDegree;
-
 constexpr double kBrightestStar_mag = -1.46;
 // Planets below this stand under the horizon wherever a cockpit may be; from higher up they only cost a pass.
 constexpr double kLowestPlanet_sine = -0.1;
 // Beyond the eye's limit a star still brightens its pixels by some codes: it fades out over the last 0.8 mag.
 constexpr double kStarMargin_mag = 1.5;
+constexpr double kNoStarIsFainter_mag = 99.0;
 
 double brightest_point_mag(const Scene& scene) {
     double brightest = kBrightestStar_mag;
@@ -33,25 +32,91 @@ double brightest_point_mag(const Scene& scene) {
 constexpr double kCoronaBegins = 0.02;
 constexpr double kCoronaWhole = 0.002;
 
-PlannedPass plan_sky(Pass pass, bool lights, bool valid, bool same_model, double now_rad, double held_rad,
-                     bool height_stale) {
-    if (!lights) return {pass, false, "the source is too low to light the air"};
-    if (!valid) return {pass, true, "no table of this air yet"};
-    if (!same_model) return {pass, true, "the sky's model, its parameters or the sea have changed"};
-    if (std::abs(now_rad - held_rad) > kStaleAngle_rad)
-        return {pass, true, "the source has moved by 0.01 deg"};
-    if (height_stale) return {pass, true, "the eye has changed height"};
-    return {pass, false, "the table is fresh"};
+// A size of the direction table, and its largest error in display codes: light_tables_test measures it.
+struct TableSize {
+    sky::SkyViewSize size;
+    double error_codes;
+};
+constexpr std::array<TableSize, 3> kTables{
+    {{{24, 12, 21, 32}, 12.0}, {{40, 20, 33, 48}, 4.9}, {{56, 28, 49, 64}, 2.8}}};
+
+// The table errs smoothly over degrees, where no eye finds an edge: it may err by this many budgets.
+constexpr double kTableShare = 10.0;
+
+struct Verdict {
+    bool needed;
+    std::string_view reason;
+};
+
+Verdict plan_sky(bool lights, bool valid, bool same_model, double now_rad, double held_rad,
+                 bool height_stale) {
+    if (!lights) return {false, "the source is too low to light the air"};
+    if (!valid) return {true, "no table of this air yet"};
+    if (!same_model) return {true, "the sky's model, its parameters or the sea have changed"};
+    if (std::abs(now_rad - held_rad) > sky::source_step_rad(held_rad))
+        return {true, "the source has moved on"};
+    if (height_stale) return {true, "the eye has changed height"};
+    return {false, "the table is fresh"};
 }
 
-PlannedPass plan_disc(Pass pass, bool enabled, double elevation_rad, double radius_rad, double sets_at_rad) {
-    if (!enabled) return {pass, false, "switched off"};
-    if (elevation_rad + 1.1 * radius_rad < sets_at_rad) return {pass, false, "below the horizon"};
-    return {pass, true, "above the horizon"};
+Verdict plan_disc(bool enabled, double elevation_rad, double radius_rad, double sets_at_rad) {
+    if (!enabled) return {false, "switched off"};
+    if (elevation_rad + 1.1 * radius_rad < sets_at_rad) return {false, "below the horizon"};
+    return {true, "above the horizon"};
 }
 
-void put(Plan& plan, const PlannedPass& pass) {
-    plan.passes[static_cast<std::size_t>(pass.pass)] = pass;
+Cost cost_of(Pass pass) {
+    switch (pass) {
+        case Pass::kAirTables:
+            return Cost::kNewAir;
+        case Pass::kSunSky:
+        case Pass::kMoonSky:
+            return Cost::kNewTable;
+        case Pass::kDome:
+        case Pass::kStars:
+        case Pass::kCorona:
+        case Pass::kSunDisc:
+        case Pass::kMoonDisc:
+            break;
+    }
+    return Cost::kChannel;
+}
+
+void put(Plan& plan, Pass pass, const Verdict& verdict) {
+    PlannedPass& planned = plan.passes[static_cast<std::size_t>(pass)];
+    const bool forced = !verdict.needed && plan.forced[static_cast<std::size_t>(pass)];
+    planned.pass = pass;
+    planned.needed = verdict.needed || forced;
+    planned.reason = forced ? "forced" : verdict.reason;
+    planned.cost = cost_of(pass);
+}
+
+void plan_skies(Plan& plan, const Scene& scene, const Held& held, double sun_rad, double moon_rad) {
+    const double horizon_rad = horizon_elevation_rad(scene.eye.height_m);
+    // Sunlit air ends at -21.5 deg (towards the Sun it outshines the night sky's low parts beyond -18),
+    // moonlit air at -10 deg of the Moon and where twilight drowns it. From high up sources light air beyond
+    // the level horizon.
+    plan.sun_share = smooth_step(-21.5 * kDegree, -18.5 * kDegree, sun_rad - horizon_rad);
+    plan.moon_share = smooth_step(-10.0 * kDegree, -6.0 * kDegree, moon_rad - horizon_rad) *
+                      smooth_step(-3.0 * kDegree, -6.0 * kDegree, sun_rad);
+    const auto forced = [&](Pass pass) { return plan.forced[static_cast<std::size_t>(pass)]; };
+    if (forced(Pass::kSunSky)) plan.sun_share = 1.0;
+    if (forced(Pass::kMoonSky)) plan.moon_share = 1.0;
+    // The Moon's table is begun before its light counts.
+    const bool moon_lights =
+        forced(Pass::kMoonSky) || (moon_rad - horizon_rad > -10.5 * kDegree && sun_rad < -2.0 * kDegree);
+    put(plan, Pass::kSunSky,
+        plan_sky(plan.sun_share > 0.0, held.sun_sky_valid, held.sun_sky_model, sun_rad,
+                 held.sun_sky_elevation_rad,
+                 sky::height_is_stale(scene.eye.height_m, held.sun_sky_height_m)));
+    put(plan, Pass::kMoonSky,
+        plan_sky(moon_lights, held.moon_sky_valid, held.moon_sky_model, moon_rad, held.moon_sky_elevation_rad,
+                 sky::height_is_stale(scene.eye.height_m, held.moon_sky_height_m)));
+    for (const Pass pass : {Pass::kSunSky, Pass::kMoonSky}) {
+        PlannedPass& planned = plan.passes[static_cast<std::size_t>(pass)];
+        planned.resolution = {plan.table.sky_rows + plan.table.ground_rows, plan.table.columns};
+        planned.error_codes = direction_table_error_codes(plan.table);
+    }
 }
 
 }  // namespace
@@ -60,6 +125,11 @@ std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
         "air tables", "sun sky", "moon sky", "dome", "stars", "corona", "sun disc", "moon disc"};
     return kNames[static_cast<std::size_t>(pass)];
+}
+
+std::string_view cost_name(Cost cost) noexcept {
+    constexpr std::array<std::string_view, 3> kNames{"per air", "per table", "per channel"};
+    return kNames[static_cast<std::size_t>(cost)];
 }
 
 double faintest_visible_mag(double background_cd_m2) noexcept {
@@ -73,54 +143,65 @@ double faintest_visible_mag(double background_cd_m2) noexcept {
     return std::max(magnitude(-9.80, -1.90), magnitude(-8.35, -5.90));
 }
 
-Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction) noexcept {
+sky::SkyViewSize direction_table_size(const Quality& quality) noexcept {
+    for (const TableSize& table : kTables) {
+        if (table.error_codes <= kTableShare * quality.error_codes) return table.size;
+    }
+    return kTables.back().size;
+}
+
+double direction_table_error_codes(const sky::SkyViewSize& size) noexcept {
+    for (const TableSize& table : kTables) {
+        if (table.size == size) return table.error_codes;
+    }
+    return kTables.front().error_codes;
+}
+
+Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction,
+               const Quality& quality) noexcept {
     const double sets_at_rad = refraction.setting_elevation_rad();
-    Plan plan;
-    plan.sky_model = scene.sky.model;
-    const double horizon_rad = horizon_elevation_rad(scene.eye.height_m);
     const double sun_rad = horizontal_of(scene.sun.direction_enu).elevation_rad;
     const double moon_rad = horizontal_of(scene.moon.direction_enu).elevation_rad;
+    Plan plan;
+    plan.forced = quality.forced;
+    plan.sky_model = scene.sky.model;
+    plan.table = direction_table_size(quality);
     const bool air_stale = !held.air_valid || !held.air_fresh;
-    put(plan, {Pass::kAirTables, air_stale, air_stale ? "the air is new" : "the air has not changed"});
-
-    // Sunlit air ends at -21.5 deg (towards the Sun it outshines the night sky's low parts beyond -18),
-    // moonlit air at -10 deg of the Moon and where twilight drowns it. From high up sources light air beyond
-    // the level horizon.
-    plan.sun_share = smooth_step(-21.5 * kDegree, -18.5 * kDegree, sun_rad - horizon_rad);
-    plan.moon_share = smooth_step(-10.0 * kDegree, -6.0 * kDegree, moon_rad - horizon_rad) *
-                      smooth_step(-3.0 * kDegree, -6.0 * kDegree, sun_rad);
-    // The Moon's table is begun before its light counts.
-    const bool moon_lights = moon_rad - horizon_rad > -10.5 * kDegree && sun_rad < -2.0 * kDegree;
-    put(plan, plan_sky(Pass::kSunSky, plan.sun_share > 0.0, held.sun_sky_valid, held.sun_sky_model, sun_rad,
-                       held.sun_sky_elevation_rad,
-                       sky::height_is_stale(scene.eye.height_m, held.sun_sky_height_m)));
-    put(plan, plan_sky(Pass::kMoonSky, moon_lights, held.moon_sky_valid, held.moon_sky_model, moon_rad,
-                       held.moon_sky_elevation_rad,
-                       sky::height_is_stale(scene.eye.height_m, held.moon_sky_height_m)));
-    put(plan, {Pass::kDome, true, "smooth light of all directions"});
-    put(plan, {Pass::kStars, false, "not decided yet"});
+    put(plan, Pass::kAirTables, {air_stale, air_stale ? "the air is new" : "the air has not changed"});
+    plan_skies(plan, scene, held, sun_rad, moon_rad);
+    put(plan, Pass::kDome, {true, "smooth light of all directions"});
+    put(plan, Pass::kStars, {false, "not decided yet"});
     plan.corona_share = smooth_step(kCoronaBegins, kCoronaWhole, scene.sun.unobscured);
-    if (plan.corona_share > 0.0) {
-        put(plan, plan_disc(Pass::kCorona, scene.sun.enabled, sun_rad, 8.0 * scene.sun.angular_radius_rad,
-                            sets_at_rad));
-    } else {
-        put(plan, {Pass::kCorona, false, "the Sun outshines it"});
-    }
-    put(plan,
-        plan_disc(Pass::kSunDisc, scene.sun.enabled, sun_rad, scene.sun.angular_radius_rad, sets_at_rad));
-    put(plan,
-        plan_disc(Pass::kMoonDisc, scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad, sets_at_rad));
+    const double sun_radius_rad = scene.sun.angular_radius_rad;
+    put(plan, Pass::kCorona,
+        plan.corona_share > 0.0 ? plan_disc(scene.sun.enabled, sun_rad, 8.0 * sun_radius_rad, sets_at_rad)
+                                : Verdict{false, "the Sun outshines it"});
+    put(plan, Pass::kSunDisc, plan_disc(scene.sun.enabled, sun_rad, sun_radius_rad, sets_at_rad));
+    put(plan, Pass::kMoonDisc,
+        plan_disc(scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad, sets_at_rad));
     return plan;
 }
 
-void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2) noexcept {
+DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& quality) noexcept {
+    constexpr double kClearlyTooFine = 0.6;
+    const DomeSize least = bend.size_for(quality.error_codes);
+    const DomeSize ample = bend.size_for(kClearlyTooFine * quality.error_codes);
+    return {std::clamp(held.columns, least.columns, ample.columns),
+            std::clamp(held.sky_rows, least.sky_rows, ample.sky_rows),
+            std::clamp(held.ground_rows, least.ground_rows, ample.ground_rows)};
+}
+
+void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept {
     plan.star_limit_mag = faintest_visible_mag(background_cd_m2) + kStarMargin_mag;
+    const double brightest_mag = brightest_point_mag(scene);
+    const bool outshone = plan.star_limit_mag < brightest_mag || half_code_mag < brightest_mag;
+    if (plan.forced[static_cast<std::size_t>(Pass::kStars)]) plan.star_limit_mag = kNoStarIsFainter_mag;
     if (!scene.stars.enabled || scene.stars.intensity <= 0.0) {
-        put(plan, {Pass::kStars, false, "switched off"});
-    } else if (plan.star_limit_mag < brightest_point_mag(scene)) {
-        put(plan, {Pass::kStars, false, "the sky outshines every star and planet"});
+        put(plan, Pass::kStars, {false, "switched off"});
+    } else if (outshone) {
+        put(plan, Pass::kStars, {false, "the sky outshines every star and planet"});
     } else {
-        put(plan, {Pass::kStars, true, "some stars outshine the sky"});
+        put(plan, Pass::kStars, {true, "some stars outshine the sky"});
     }
 }
 

@@ -1,35 +1,40 @@
-// Which passes one frame needs, and why. Pure: no GL, no clock, no allocation.
+// Which passes one frame needs, how fine, and why. Pure: no GL, no clock, no allocation.
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstddef>
-#include <span>
 #include <string_view>
 
+#include "render/quality.h"
 #include "render/scene.h"
 #include "render/sky/refraction.h"
+#include "render/sky/sky_view.h"
 
 namespace skyig::render {
 
-enum class Pass {
-    kAirTables,  ///< optical columns and multiple scattering of a new air
-    kSunSky,     ///< direction table of sunlit air
-    kMoonSky,    ///< direction table of moonlit air
-    kDome,       ///< smooth light of all directions, toned at the vertices
-    kStars,
-    kCorona,  ///< what is left of the Sun in a total eclipse
-    kSunDisc,
-    kMoonDisc,
-};
-inline constexpr std::size_t kPassCount = 8;
+class DomeBend;
+struct DomeSize;
 
-[[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
+/// When a pass costs.
+enum class Cost { kNewAir, kNewTable, kChannel };
+[[nodiscard]] std::string_view cost_name(Cost cost) noexcept;
+
+/// Rows and columns of what a pass computes; 0 where it has none.
+struct Resolution {
+    int rows = 0;
+    int columns = 0;
+};
 
 struct PlannedPass {
     Pass pass = Pass::kDome;
     bool needed = false;
     /// One plain sentence part: why it is drawn, or why it is dropped.
     std::string_view reason;
+    Resolution resolution;
+    /// Largest error by its resolution, display codes; for the dome as measured when it was laid out.
+    double error_codes = 0.0;
+    Cost cost = Cost::kChannel;
 };
 
 /// What the renderer already holds, so that the plan can say what is stale. A sky is valid if it was made of
@@ -59,6 +64,9 @@ struct Plan {
     double corona_share = 0.0;
     /// Stars of this V magnitude are gone, those 0.8 mag brighter are drawn in full.
     double star_limit_mag = 0.0;
+    /// Nodes of the direction tables.
+    sky::SkyViewSize table;
+    std::bitset<kPassCount> forced;
 
     [[nodiscard]] const PlannedPass& operator[](Pass pass) const noexcept {
         return passes[static_cast<std::size_t>(pass)];
@@ -66,14 +74,26 @@ struct Plan {
     [[nodiscard]] bool needs(Pass pass) const noexcept { return (*this)[pass].needed; }
 };
 
+/// Nodes of the direction tables for a budget. \see direction_table_error_codes()
+[[nodiscard]] sky::SkyViewSize direction_table_size(const Quality& quality) noexcept;
+
+/// Largest error of the sky, against a table three times as fine each way, over the scenes of
+/// light_tables_test; of the sizes that direction_table_size() knows.
+[[nodiscard]] double direction_table_error_codes(const sky::SkyViewSize& size) noexcept;
+
 /// \param scene  the frame; \param held  what is in the tables; \param refraction  of the frame's eye and
-/// air. Deterministic: equal input gives an equal plan. Stars are left for plan_stars(), which needs the
-/// light that this plan leads to.
-[[nodiscard]] Plan make_plan(const Scene& scene, const Held& held,
-                             const sky::RefractionRow& refraction) noexcept;
+/// air. Deterministic: equal input gives an equal plan. Dome and stars are left for plan_dome() and
+/// plan_stars(), which need the light that this plan leads to.
+[[nodiscard]] Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction,
+                             const Quality& quality = {}) noexcept;
+
+/// Decides how fine the dome is laid out: the smallest size that keeps to the budget, but no smaller than
+/// `held` while that is not clearly too fine. \param held  the dome in use
+[[nodiscard]] DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& quality) noexcept;
 
 /// Decides on the stars and planets. \param background_cd_m2  the darkest sky that they stand before
-void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2) noexcept;
+/// \param half_code_mag  fainter ones change no picture
+void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept;
 
 /// Faintest star that a practised eye sees before a background, V magnitude (Schaefer 1990, after Knoll et
 /// al. 1946).

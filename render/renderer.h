@@ -33,7 +33,7 @@ class Renderer {
   public:
     /// \throws std::runtime_error with the GL text when a program or a framebuffer cannot be made, or when
     /// there are no channels or more than kMaxChannels.
-    Renderer(std::vector<Channel> channels, const DisplaySettings& display);
+    Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality = {});
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;

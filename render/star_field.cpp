@@ -38,6 +38,20 @@ glm::vec3 lifted(const glm::vec3& d, float angle_rad) {
 
 }  // namespace
 
+double half_code_mag(double background_cd_m2, const shaders64::ToneParameters& tone,
+                     double pixel_rad) noexcept {
+    const auto code = [&](double added) {
+        const glm::dvec3 behind = shaders64::display_linear(glm::dvec3{background_cd_m2}, tone);
+        return 255.0 * shaders64::encoded(behind + glm::dvec3{added}, tone).y;
+    };
+    constexpr double kSmall = 1e-4;
+    const double added = kSmall * 0.5 / (code(kSmall) - code(0.0));
+    const double sigma_rad = kStarSigma_px * pixel_rad;
+    const double lux =
+        added * 2.0 * std::numbers::pi * sigma_rad * sigma_rad / (tone.point_gain * tone.inv_display_max);
+    return -2.5 * std::log10(lux / night::star_illuminance_lux(0.0));
+}
+
 StarField::StarField() {
     sources_.reserve(night::star_catalogue().size());
     for (const night::CatalogueStar& star : night::star_catalogue()) {

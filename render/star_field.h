@@ -21,6 +21,14 @@ struct StarVertex {
     glm::vec3 background;       ///< display linear, of the sky behind the star
 };
 
+/// Standard deviation of a star's footprint in pixels of the finest channel's axis.
+inline constexpr double kStarSigma_px = 0.7;
+
+/// V magnitude of a star that, outside the air, adds half a display code to its brightest pixel before a
+/// background of this luminance; fainter ones change no picture.
+[[nodiscard]] double half_code_mag(double background_cd_m2, const shaders64::ToneParameters& tone,
+                                   double pixel_rad) noexcept;
+
 class StarField {
   public:
     /// Allocates for the whole catalogue and the planets.

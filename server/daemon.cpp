@@ -270,7 +270,7 @@ void run(const DaemonOptions& options, const config::Config& config,
     const std::unique_ptr<FrameTable> table =
         options.times_path.empty() ? nullptr
                                    : std::make_unique<FrameTable>(options.times_path, config.channels);
-    GlPainter painter(render_channels(config), display_settings(config));
+    GlPainter painter(render_channels(config), display_settings(config), quality(config));
     say_banner(log, config, painter, outside.heard(options, config));
     if (const std::string path = record_path(options, config, clock); !path.empty()) {
         outside.record(path, config,

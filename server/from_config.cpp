@@ -112,6 +112,13 @@ render::Air air_settings(const config::Air& air) noexcept {
             .humidity_pct = air.humidity_pct};
 }
 
+render::Quality quality(const config::Config& config) {
+    render::Quality quality;
+    quality.error_codes =
+        config.quality.error_pct ? *config.quality.error_pct / render::kCode_pct : config.quality.error_codes;
+    return quality;
+}
+
 render::DisplaySettings display_settings(const config::Config& config) {
     render::DisplaySettings settings;
     settings.max_luminance_cd_m2 = config.display.max_luminance_cd_m2;

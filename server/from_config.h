@@ -7,6 +7,7 @@
 #include "config/config.h"
 #include "render/channel.h"
 #include "render/display.h"
+#include "render/quality.h"
 #include "render/scene.h"
 #include "server/clock.h"
 #include "server/ephemeris/bodies.h"
@@ -36,5 +37,7 @@ namespace skyig::server {
 [[nodiscard]] render::Air air_settings(const config::Air& air) noexcept;
 
 [[nodiscard]] render::DisplaySettings display_settings(const config::Config& config);
+
+[[nodiscard]] render::Quality quality(const config::Config& config);
 
 }  // namespace skyig::server

@@ -6,8 +6,9 @@
 namespace skyig::server {
 
 // A debug context costs nothing that can be measured here, and every GL error is then counted.
-GlPainter::GlPainter(std::vector<render::Channel> channels, const render::DisplaySettings& display)
-    : context_(render::gl::HeadlessContext::create(true)), renderer_(std::move(channels), display) {}
+GlPainter::GlPainter(std::vector<render::Channel> channels, const render::DisplaySettings& display,
+                     const render::Quality& quality)
+    : context_(render::gl::HeadlessContext::create(true)), renderer_(std::move(channels), display, quality) {}
 
 void GlPainter::prepare(const render::Scene& scene) {
     const render::FrameReport& report = renderer_.prepare(scene);

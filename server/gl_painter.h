@@ -15,7 +15,8 @@ class GlPainter final : public Painter {
     /// Its context belongs to the thread that makes it.
     /// \throws std::runtime_error with one line when there is no display, no OpenGL 4.5 or no memory for the
     /// channels
-    GlPainter(std::vector<render::Channel> channels, const render::DisplaySettings& display);
+    GlPainter(std::vector<render::Channel> channels, const render::DisplaySettings& display,
+              const render::Quality& quality);
 
     void prepare(const render::Scene& scene) override;
     void draw(std::size_t channel) override;

@@ -13,6 +13,8 @@
 #include "clients/skyig/ephem/star_name.h"
 #include "clients/skyig/options.h"
 #include "clients/skyig/status/http_get.h"
+#include "clients/skyig/still/still_command.h"
+#include "clients/skyig/validators.h"
 #include "protocol/transport/endpoint.h"
 #include "render/sky_settings.h"
 #include "server/ephemeris/time.h"
@@ -21,8 +23,8 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 10> kVerbs{"host",   "shot",   "bench", "ephem",  "decode",
-                                                  "replay", "record", "sky",   "status", "top"};
+constexpr std::array<std::string_view, 11> kVerbs{"host",   "shot",   "plan", "bench",  "ephem", "decode",
+                                                  "replay", "record", "sky",  "status", "top"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -44,31 +46,6 @@ std::string_view nearest_verb(std::string_view word) {
     return *std::min_element(kVerbs.begin(), kVerbs.end(), [word](std::string_view a, std::string_view b) {
         return edit_distance(word, a) < edit_distance(word, b);
     });
-}
-
-std::string check_utc(const std::string& text) {
-    if (server::ephemeris::parse_utc(text)) return {};
-    return fmt::format("'{}' is no UTC time; write it as 2026-06-21T19:30:00Z", text);
-}
-
-CLI::Validator utc_time() {
-    return {[](std::string& text) { return check_utc(text); }, "UTC"};
-}
-
-/// CLI::Range lets NaN through: no comparison with it is true.
-CLI::Validator finite_in(double lo, double hi) {
-    const auto check = [lo, hi](std::string& text) -> std::string {
-        double value = 0.0;
-        if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= lo && value <= hi)
-            return {};
-        return fmt::format("'{}' is not a number in [{:.9g}, {:.9g}]", text, lo, hi);
-    };
-    return {check, fmt::format("NUMBER in [{:.9g}, {:.9g}]", lo, hi)};
-}
-
-CLI::Validator sky_model_name() {
-    return CLI::IsMember(
-        std::vector<std::string>(render::kSkyModelNames.begin(), render::kSkyModelNames.end()));
 }
 
 void add_host(CLI::App& app, HostOptions& options, std::string& order) {
@@ -104,41 +81,18 @@ void add_host(CLI::App& app, HostOptions& options, std::string& order) {
     app.add_flag("--json", options.json, "tell the results as JSON");
 }
 
-void add_shot(CLI::App& app, ShotOptions& options, std::string& sky_model) {
-    CLI::Option* config = app.add_option("--config", options.config_path,
-                                         "settings to start from (TOML); all their channels are drawn")
-                              ->type_name("FILE");
-    app.add_option("--lat", options.latitude_deg, "latitude, degrees north")->check(finite_in(-90.0, 90.0));
-    app.add_option("--lon", options.longitude_deg, "longitude, degrees east")
-        ->check(finite_in(-360.0, 360.0));
-    app.add_option("--alt", options.height_m, "height above the WGS84 ellipsoid, metres")
-        ->check(finite_in(-430.0, 1e8));
-    app.add_option("--utc", options.utc, "UTC, as 2026-06-21T19:30:00Z")
-        ->check(utc_time())
-        ->type_name("TIME");
-    app.add_option("--heading", options.heading_deg, "degrees from true north")
-        ->check(finite_in(-360.0, 360.0));
-    app.add_option("--pitch", options.pitch_deg, "degrees nose up")->check(finite_in(-90.0, 90.0));
-    app.add_option("--roll", options.roll_deg, "degrees right wing down")->check(finite_in(-180.0, 180.0));
-    app.add_option("--visibility-m", options.visibility_m, "visibility at the ground, metres")
-        ->check(finite_in(10.0, 400'000.0));
-    app.add_option("--sky", sky_model, "model of the day sky (the settings', or multi)")
-        ->check(sky_model_name())
-        ->type_name("MODEL");
-    app.add_option("--width", options.width_px, "pixels across (1280)")
-        ->check(CLI::Range(1, 16384))
-        ->excludes(config);
-    app.add_option("--height", options.height_px, "pixels down (1024)")
-        ->check(CLI::Range(1, 16384))
-        ->excludes(config);
-    app.add_option("--fov", options.fov_deg, "degrees across (60)")
-        ->check(finite_in(0.1, 170.0))
-        ->excludes(config);
+void add_shot(CLI::App& app, ShotOptions& options) {
+    add_still(app, options.still);
     app.add_option("-o,--out", options.out_path,
                    "the PNG to write; with --config and several channels NAME_channel.png")
         ->required()
         ->type_name("FILE");
     app.add_flag("--json", options.json, "tell the results as JSON");
+}
+
+void add_plan(CLI::App& app, PlanOptions& options) {
+    add_still(app, options.still);
+    app.add_flag("--json", options.json, "tell the plan as JSON");
 }
 
 void add_bench(CLI::App& app, BenchOptions& options) {
@@ -390,6 +344,7 @@ const char* unknown_verb(int argc, const char* const* argv) {
 struct Verbs {
     HostOptions host;
     ShotOptions shot;
+    PlanOptions plan;
     BenchOptions bench;
     EphemOptions ephem;
     DecodeOptions decode;
@@ -398,7 +353,6 @@ struct Verbs {
     StatusOptions status;
     StatusOptions top;
     SkyOptions sky;
-    std::string shot_sky;
     std::string order = "little";
     std::string horizon = "almanac";
 };
@@ -406,7 +360,8 @@ struct Verbs {
 void add_verbs(CLI::App& app, Verbs& verbs) {
     add_host(*app.add_subcommand("host", "fly a recorded flight at a daemon and tell what it answers"),
              verbs.host, verbs.order);
-    add_shot(*app.add_subcommand("shot", "draw one still without a network"), verbs.shot, verbs.shot_sky);
+    add_shot(*app.add_subcommand("shot", "draw one still without a network"), verbs.shot);
+    add_plan(*app.add_subcommand("plan", "which passes a scene needs, how fine, and why"), verbs.plan);
     add_bench(*app.add_subcommand("bench", "measure error and cost of every model of a family"), verbs.bench);
     add_ephem(
         *app.add_subcommand("ephem", "where Sun, Moon, planets and stars stand, and when things happen"),
@@ -439,13 +394,9 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     verbs.host.big_endian = verbs.order == "big";
     require_one_body(verbs.ephem);
     verbs.ephem.eye_horizon = verbs.horizon == "eye";
-    if (!verbs.shot_sky.empty()) {
-        const auto* const at =
-            std::find(render::kSkyModelNames.begin(), render::kSkyModelNames.end(), verbs.shot_sky);
-        verbs.shot.sky_model = static_cast<config::SkyModel>(at - render::kSkyModelNames.begin());
-    }
     if (app.got_subcommand("host")) invocation.options = verbs.host;
     if (app.got_subcommand("shot")) invocation.options = verbs.shot;
+    if (app.got_subcommand("plan")) invocation.options = verbs.plan;
     if (app.got_subcommand("bench")) invocation.options = verbs.bench;
     if (app.got_subcommand("ephem")) invocation.options = verbs.ephem;
     if (app.got_subcommand("decode")) invocation.options = verbs.decode;

@@ -9,6 +9,7 @@
 #include "clients/skyig/ephem.h"
 #include "clients/skyig/host.h"
 #include "clients/skyig/options.h"
+#include "clients/skyig/plan.h"
 #include "clients/skyig/record.h"
 #include "clients/skyig/replay.h"
 #include "clients/skyig/shot.h"
@@ -24,6 +25,7 @@ int run(int argc, char** argv) {
     fmt::print(stderr, "{}", invocation.error);
     if (const auto* host = std::get_if<HostOptions>(&invocation.options)) return run_host(*host);
     if (const auto* shot = std::get_if<ShotOptions>(&invocation.options)) return run_shot(*shot);
+    if (const auto* plan = std::get_if<PlanOptions>(&invocation.options)) return run_plan(*plan);
     if (const auto* bench = std::get_if<BenchOptions>(&invocation.options)) return run_bench(*bench);
     if (const auto* ephem = std::get_if<EphemOptions>(&invocation.options)) return run_ephem(*ephem);
     if (const auto* decode = std::get_if<DecodeOptions>(&invocation.options)) return run_decode(*decode);

@@ -35,8 +35,8 @@ struct HostOptions {
     bool json = false;
 };
 
-/// skyig shot: one still without a network.
-struct ShotOptions {
+/// One moment without a network.
+struct StillOptions {
     /// Settings to start from; the built-in ones with one channel if empty. What is given below comes before
     /// them.
     std::string config_path;
@@ -55,7 +55,18 @@ struct ShotOptions {
     int width_px = 1280;
     int height_px = 1024;
     double fov_deg = 60.0;
+};
+
+/// skyig shot: its picture.
+struct ShotOptions {
+    StillOptions still;
     std::string out_path;
+    bool json = false;
+};
+
+/// skyig plan: what its picture takes.
+struct PlanOptions {
+    StillOptions still;
     bool json = false;
 };
 
@@ -172,8 +183,8 @@ struct SkyOptions {
 
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
-    std::variant<std::monostate, HostOptions, ShotOptions, BenchOptions, EphemOptions, DecodeOptions,
-                 ReplayOptions, RecordOptions, SkyOptions, StatusOptions>
+    std::variant<std::monostate, HostOptions, ShotOptions, PlanOptions, BenchOptions, EphemOptions,
+                 DecodeOptions, ReplayOptions, RecordOptions, SkyOptions, StatusOptions>
         options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)

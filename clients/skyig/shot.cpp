@@ -2,34 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <glm/gtc/constants.hpp>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "config/config.h"
+#include "clients/skyig/still/still.h"
 #include "render/output/png.h"
 #include "server/clock.h"
 #include "server/from_config.h"
 #include "server/gl_painter.h"
-#include "server/log.h"
 #include "server/scene_builder.h"
-#include "server/world/world.h"
 
 namespace skyig::clients {
 
-namespace ephemeris = server::ephemeris;
-
 namespace {
-
-/// What is wrong has been told line by line: exit status 2.
-struct ConfigErrors {};
 
 struct Picture {
     std::string channel;
@@ -49,47 +38,6 @@ struct Shot {
     double adaptation_cd_m2 = 0.0;
     std::string renderer;
 };
-
-config::Config base_config(const ShotOptions& options) {
-    if (options.config_path.empty()) {
-        config::Config config = config::default_config();
-        config::Channel& channel = config.channels.front();
-        channel.width_px = options.width_px;
-        channel.height_px = options.height_px;
-        channel.right_deg = options.fov_deg / 2.0;
-        channel.left_deg = -channel.right_deg;
-        const double top = std::tan(glm::radians(channel.right_deg)) * options.height_px / options.width_px;
-        channel.top_deg = glm::degrees(std::atan(top));
-        channel.bottom_deg = -channel.top_deg;
-        return config;
-    }
-    config::LoadResult loaded = config::load_config(options.config_path);
-    for (const config::ConfigError& error : loaded.errors)
-        fmt::print(stderr, "{}\n", config::to_text(error));
-    if (!loaded.config) throw ConfigErrors{};
-    return std::move(*loaded.config);
-}
-
-config::Config shot_config(const ShotOptions& options) {
-    config::Config config = base_config(options);
-    config::Start& start = config.start;
-    start.running = false;
-    start.latitude_deg = options.latitude_deg.value_or(start.latitude_deg);
-    start.longitude_deg = std::remainder(options.longitude_deg.value_or(start.longitude_deg), 360.0);
-    start.height_m = options.height_m.value_or(start.height_m);
-    start.yaw_deg = options.heading_deg.value_or(start.yaw_deg);
-    start.pitch_deg = options.pitch_deg.value_or(start.pitch_deg);
-    start.roll_deg = options.roll_deg.value_or(start.roll_deg);
-    config.air.visibility_m = options.visibility_m.value_or(config.air.visibility_m);
-    config.sky.model = options.sky_model.value_or(config.sky.model);
-    return config;
-}
-
-ephemeris::UtcClockTime shot_time(const ShotOptions& options, const config::Config& config,
-                                  const server::Clock& clock) {
-    if (const auto asked = ephemeris::parse_utc(options.utc)) return *asked;
-    return server::start_time(config.start, clock);
-}
 
 /// The file as asked for; with several channels their names go before the extension.
 std::string picture_path(const std::string& out_path, const config::Config& config, std::size_t channel) {
@@ -115,31 +63,15 @@ Picture write_picture(server::GlPainter& painter, const ShotOptions& options, co
     return picture;
 }
 
-server::SceneBuilder scene_builder(const ShotOptions& options, const config::Config& config) {
-    ephemeris::EarthOrientationResult orientation =
-        server::load_earth_orientation(config, options.config_path);
-    if (!orientation) {
-        fmt::print(stderr, "{}\n", orientation.error);
-        throw ConfigErrors{};
-    }
-    return server::SceneBuilder(server::ephemeris_model(config), std::move(*orientation.orientation),
-                                server::sky_settings(config.sky), server::ground_settings(config.ground));
-}
-
 Shot take_shot(const ShotOptions& options) {
     const server::SystemClock clock;
-    server::Log log(clock, server::Severity::kWarning);
-    const config::Config config = shot_config(options);
-    const ephemeris::UtcClockTime utc = shot_time(options, config, clock);
-    server::SceneBuilder scenes = scene_builder(options, config);
-    const server::world::World world(config, utc, log);
-    server::GlPainter painter(server::render_channels(config), server::display_settings(config));
+    const Still still = make_still(options.still, clock);
+    const config::Config& config = still.config;
+    server::GlPainter painter(server::render_channels(config), server::display_settings(config),
+                              server::quality(config));
 
     const std::int64_t begin_ns = clock.monotonic_ns();
-    const render::Scene scene = scenes.build(world, 1);
-    if (scenes.date_clamped())
-        log.warning("{} is beyond the ephemeris: the nearest year it knows is drawn", ephemeris::to_iso(utc));
-    painter.prepare(scene);
+    painter.prepare(still.scene);
     const std::int64_t tables_ns = clock.monotonic_ns();
     Shot shot;
     for (std::size_t channel = 0; channel < config.channels.size(); ++channel)
@@ -148,10 +80,10 @@ Shot take_shot(const ShotOptions& options) {
     shot.draw_ms = static_cast<double>(clock.monotonic_ns() - tables_ns) * 1e-6;
     for (std::size_t channel = 0; channel < config.channels.size(); ++channel)
         shot.pictures.push_back(write_picture(painter, options, config, channel));
-    shot.utc = ephemeris::to_iso(utc);
-    shot.ephemeris = ephemeris::name_of(server::ephemeris_model(config));
-    shot.leap_seconds_assumed = scenes.leap_seconds_assumed();
-    shot.sky = server::sky_angles(scene);
+    shot.utc = server::ephemeris::to_iso(still.utc);
+    shot.ephemeris = server::ephemeris::name_of(server::ephemeris_model(config));
+    shot.leap_seconds_assumed = still.leap_seconds_assumed;
+    shot.sky = server::sky_angles(still.scene);
     shot.adaptation_cd_m2 = painter.adaptation_cd_m2();
     shot.renderer = painter.description();
     return shot;
@@ -202,7 +134,7 @@ int run_shot(const ShotOptions& options) {
         const Shot shot = take_shot(options);
         options.json ? print_json(shot) : print_text(shot);
         return 0;
-    } catch (const ConfigErrors&) {
+    } catch (const StillErrors&) {
         return 2;
     } catch (const std::exception& error) {
         fmt::print(stderr, "skyig shot: {}\n", error.what());

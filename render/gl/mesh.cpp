@@ -36,21 +36,28 @@ Mesh::Mesh(Mesh&& other) noexcept
     : array_(std::exchange(other.array_, 0U)),
       vertices_(std::exchange(other.vertices_, 0U)),
       indices_(std::exchange(other.indices_, 0U)),
-      capacity_bytes_(other.capacity_bytes_) {}
+      capacity_bytes_(other.capacity_bytes_),
+      index_capacity_bytes_(other.index_capacity_bytes_) {}
 
 Mesh& Mesh::operator=(Mesh&& other) noexcept {
     std::swap(array_, other.array_);
     std::swap(vertices_, other.vertices_);
     std::swap(indices_, other.indices_);
     std::swap(capacity_bytes_, other.capacity_bytes_);
+    std::swap(index_capacity_bytes_, other.index_capacity_bytes_);
     return *this;
 }
 
 void Mesh::set_indices(std::span<const std::uint32_t> indices) {
-    if (indices_ != 0) glDeleteBuffers(1, &indices_);
-    glCreateBuffers(1, &indices_);
-    glNamedBufferStorage(indices_, static_cast<GLsizeiptr>(indices.size_bytes()), indices.data(), 0);
-    glVertexArrayElementBuffer(array_, indices_);
+    if (indices.size_bytes() > index_capacity_bytes_) {
+        if (indices_ != 0) glDeleteBuffers(1, &indices_);
+        index_capacity_bytes_ = indices.size_bytes();
+        glCreateBuffers(1, &indices_);
+        glNamedBufferStorage(indices_, static_cast<GLsizeiptr>(index_capacity_bytes_), nullptr,
+                             GL_DYNAMIC_STORAGE_BIT);
+        glVertexArrayElementBuffer(array_, indices_);
+    }
+    glNamedBufferSubData(indices_, 0, static_cast<GLsizeiptr>(indices.size_bytes()), indices.data());
 }
 
 void Mesh::update(std::span<const float> vertices) {

@@ -19,7 +19,7 @@ class Mesh {
     Mesh(const Mesh&) = delete;
     Mesh& operator=(const Mesh&) = delete;
 
-    /// Triangles, three indices each.
+    /// Triangles, three indices each. Storage is made anew only when it must grow.
     void set_indices(std::span<const std::uint32_t> indices);
     /// Replaces the vertices from the first on; at most max_vertices.
     void update(std::span<const float> vertices);
@@ -34,6 +34,7 @@ class Mesh {
     unsigned vertices_ = 0;
     unsigned indices_ = 0;
     std::size_t capacity_bytes_ = 0;
+    std::size_t index_capacity_bytes_ = 0;
 };
 
 }  // namespace skyig::render::gl

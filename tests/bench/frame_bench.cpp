@@ -2,74 +2,34 @@
 // of the same size, drawn in turn with it in the same run. Medians of wall time, and of the processor time of
 // all threads, which other work on the machine touches less.
 //   frame_bench [ROUNDS]     default 60
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
-#include <vector>
 
-#include "render/gl/draw.h"
-#include "render/gl/framebuffer.h"
 #include "render/gl/headless_context.h"
-#include "render/gl/mesh.h"
-#include "render/gl/program.h"
 #include "render/gl/texture.h"
 #include "render/renderer.h"
+#include "tests/bench/spent.h"
 #include "tests/render/scenes.h"
 
 namespace {
 
 using namespace skyig::render;
+using namespace skyig::render::bench;
 
 constexpr int kWidth = 1280;
 constexpr int kHeight = 1024;
-
-struct Spent {
-    double wall_ms = 0.0;
-    double processor_ms = 0.0;
-};
-
-double processor_ms() {
-    timespec now{};
-    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-}
-
-template <class Work>
-Spent spent(Work work) {
-    const auto start = std::chrono::steady_clock::now();
-    const double processor_start_ms = processor_ms();
-    work();
-    return {std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(),
-            processor_ms() - processor_start_ms};
-}
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-}
 
 struct Costs {
     std::vector<double> write, draw, ratio, processor_ratio, prepare, read_back;
 };
 
 Costs measure(Renderer& renderer, Scene scene, int rounds) {
-    gl::Framebuffer target(kWidth, kHeight);
-    const gl::Program program("common/write.vert", "common/write.frag");
-    const gl::Mesh triangle({}, 3);
+    Write write_once(kWidth, kHeight);
     std::vector<std::byte> pixels(static_cast<std::size_t>(kWidth) * kHeight * 4);
     Costs costs;
     for (int i = -5; i < rounds; ++i) {
         scene.time_s += 1.0 / 30.0;
-        const Spent write = spent([&] {
-            target.bind();
-            gl::set_blend(gl::Blend::kReplace);
-            program.use();
-            triangle.draw_strip(3);
-            gl::finish();
-        });
+        const Spent write = spent(write_once);
         const Spent prepare = spent([&] { renderer.prepare(scene); });
         const Spent draw = spent([&] { renderer.draw(0); });
         const Spent read_back = spent([&] { renderer.read_back(0, pixels); });
@@ -94,19 +54,11 @@ void print_deferred(Scene scene, int rounds) {
     tests::add_view(scene, tests::symmetric_frustum(30.0, kWidth, kHeight),
                     tests::view_from_enu(175.0, 8.0, 0.0));
     Renderer renderer({{"only", kWidth, kHeight}}, {});
-    gl::Framebuffer target(kWidth, kHeight);
-    const gl::Program program("common/write.vert", "common/write.frag");
-    const gl::Mesh triangle({}, 3);
+    Write write_once(kWidth, kHeight);
     std::vector<double> writes, draws, shared;
     for (int i = -5; i < rounds; ++i) {
         scene.time_s += 1.0 / 30.0;
-        const Spent write = spent([&] {
-            target.bind();
-            gl::set_blend(gl::Blend::kReplace);
-            program.use();
-            triangle.draw_strip(3);
-            gl::finish();
-        });
+        const Spent write = spent(write_once);
         shared.push_back(spent([&] { renderer.prepare(scene); }).wall_ms);
         const Spent sky = spent([&] { renderer.draw(0); });
         const Spent both = spent([&] { renderer.draw_scene(0, {colour.name(), depth.name(), 100e3}); });

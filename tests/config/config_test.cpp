@@ -57,6 +57,16 @@ TEST(Config, SmallestFileHasEveryDefault) {
     EXPECT_EQ(config.channels[0].left_deg, -30.0);
 }
 
+TEST(Config, QualityIsGivenInCodesOrInPercent) {
+    const LoadResult result = parse_config(with("[quality]\nerror_pct = 3.4"), "site.toml");
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result.config->quality.error_pct, 3.4);
+    EXPECT_EQ(result.config->quality.error_codes, 0.5);
+    EXPECT_THAT(error_of(with("[quality]\nerror_pct = 3\nerror_codes = 1")).message,
+                HasSubstr("stands beside error_codes; give one of them"));
+    EXPECT_THAT(error_of(with("[quality]\nerror_codes = 9")).message, HasSubstr("0.1..8"));
+}
+
 TEST(Config, ReadsEveryKey) {
     const LoadResult result = parse_config(R"(version = 1
 [daemon]
@@ -102,6 +112,8 @@ max_luminance_cd_m2 = 200
 adaptation_cd_m2 = 50
 gamma = 2.4
 dither = false
+[quality]
+error_codes = 1.5
 [eye]
 operator = "linear"
 adapt_up_s = 1
@@ -150,6 +162,8 @@ group_id = 3
     EXPECT_EQ(c.ephemeris.earth_orientation, "finals2000A.all");
     EXPECT_EQ(c.display.adaptation_cd_m2, 50.0);
     EXPECT_EQ(c.display.gamma, 2.4);
+    EXPECT_EQ(c.quality.error_codes, 1.5);
+    EXPECT_FALSE(c.quality.error_pct);
     EXPECT_FALSE(c.display.dither);
     EXPECT_EQ(c.eye.tone, ToneOperator::kLinear);
     EXPECT_EQ(c.eye.adapt_down_s, 20.0);

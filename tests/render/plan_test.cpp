@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "render/dome_bend.h"
+#include "render/eye/tone_curve.h"
 #include "render/geometry.h"
 #include "tests/render/scenes.h"
 
@@ -15,6 +17,9 @@ using tests::make_scene;
 Plan plan_of(const Scene& scene, const Held& held) {
     return make_plan(scene, held, tests::refraction_of(scene));
 }
+
+// No star is too faint to change the picture.
+constexpr double kNone_mag = 99.0;
 
 Held fresh(const Scene& scene) {
     Held held;
@@ -41,13 +46,15 @@ TEST(Plan, FreshTablesAreKept) {
     EXPECT_EQ(plan.sun_share, 1.0);
 }
 
-TEST(Plan, SourceThatMovedAHundredthOfADegreeMakesItsTableStale) {
-    const Scene scene = make_scene(30, 180, 10, 0, 1000);
-    Held held = fresh(scene);
-    held.sun_sky_elevation_rad += 0.009 * tests::kDegree;
-    EXPECT_FALSE(plan_of(scene, held).needs(Pass::kSunSky));
-    held.sun_sky_elevation_rad += 0.002 * tests::kDegree;
-    EXPECT_TRUE(plan_of(scene, held).needs(Pass::kSunSky));
+TEST(Plan, SourceThatMovedAHundredthOfADegreeMakesItsTableStaleByNoonThree) {
+    for (const auto& [sun_deg, step_deg] : {std::pair{0.0, 0.01}, std::pair{30.0, 0.03}}) {
+        const Scene scene = make_scene(sun_deg, 180, 10, 0, 1000);
+        Held held = fresh(scene);
+        held.sun_sky_elevation_rad += 0.9 * step_deg * tests::kDegree;
+        EXPECT_FALSE(plan_of(scene, held).needs(Pass::kSunSky)) << sun_deg;
+        held.sun_sky_elevation_rad += 0.2 * step_deg * tests::kDegree;
+        EXPECT_TRUE(plan_of(scene, held).needs(Pass::kSunSky)) << sun_deg;
+    }
 }
 
 TEST(Plan, StaleAirIsAskedForAnew) {
@@ -62,9 +69,9 @@ TEST(Plan, StaleAirIsAskedForAnew) {
 TEST(Plan, StarsGoBecauseTheSkyIsBrightNotBecauseTheSunIsUp) {
     const Scene scene = make_scene(30, 180, 10, 0, 1000);
     Plan plan = plan_of(scene, fresh(scene));
-    plan_stars(plan, scene, 2000.0);
+    plan_stars(plan, scene, 2000.0, kNone_mag);
     EXPECT_FALSE(plan.needs(Pass::kStars));
-    plan_stars(plan, scene, 2e-4);  // the same Sun, seen from above the air
+    plan_stars(plan, scene, 2e-4, kNone_mag);  // the same Sun, seen from above the air
     EXPECT_TRUE(plan.needs(Pass::kStars));
     EXPECT_GT(plan.star_limit_mag, 7.5);
 }
@@ -73,17 +80,17 @@ TEST(Plan, PlanetsCountAsStarsForTheDecision) {
     Scene scene = make_scene(5, 180, -10, 0, 0);
     const double background = 2000.0;
     Plan plan = plan_of(scene, fresh(scene));
-    plan_stars(plan, scene, background);
+    plan_stars(plan, scene, background, kNone_mag);
     ASSERT_FALSE(plan.needs(Pass::kStars));
     scene.planets[1] = {tests::at(30, 200), -4.5, 0.8};
-    plan_stars(plan, scene, background);
+    plan_stars(plan, scene, background, kNone_mag);
     EXPECT_TRUE(plan.needs(Pass::kStars));
     scene.planets[1].direction_enu = tests::at(-30, 200);
-    plan_stars(plan, scene, background);
+    plan_stars(plan, scene, background, kNone_mag);
     EXPECT_FALSE(plan.needs(Pass::kStars));
     scene.planets[1].direction_enu = tests::at(30, 200);
     scene.stars.enabled = false;
-    plan_stars(plan, scene, background);
+    plan_stars(plan, scene, background, kNone_mag);
     EXPECT_FALSE(plan.needs(Pass::kStars));
 }
 
@@ -130,10 +137,72 @@ TEST(Plan, DiscsBelowTheDippedHorizonAreDropped) {
     EXPECT_EQ(plan_of(off, {})[Pass::kSunDisc].reason, "switched off");
 }
 
+TEST(Plan, AtNoonNeitherStarsNorMoonlightAreDrawn) {
+    const Scene noon = make_scene(60, 180, 20, 90, 1000);
+    Plan plan = plan_of(noon, fresh(noon));
+    plan_stars(plan, noon, 1500.0, -3.0);
+    for (const Pass pass : {Pass::kStars, Pass::kMoonSky, Pass::kCorona})
+        EXPECT_FALSE(plan.needs(pass)) << pass_name(pass);
+}
+
+TEST(Plan, StarsThatAddLessThanHalfACodeAreLeftOut) {
+    Scene scene = make_scene(5, 180, -10, 0, 0);
+    scene.planets[1] = {tests::at(30, 200), -4.5, 0.8};
+    Plan plan = plan_of(scene, fresh(scene));
+    plan_stars(plan, scene, 2000.0, -4.4);
+    EXPECT_TRUE(plan.needs(Pass::kStars));
+    plan_stars(plan, scene, 2000.0, -4.6);
+    EXPECT_FALSE(plan.needs(Pass::kStars));
+}
+
+TEST(Plan, ForcedPassesRunAndSaySo) {
+    const Scene noon = make_scene(60, 180, -20, 90, 1000);
+    Quality quality;
+    quality.forced.set();
+    Plan plan = make_plan(noon, fresh(noon), tests::refraction_of(noon), quality);
+    plan_stars(plan, noon, 1500.0, -3.0);
+    for (const PlannedPass& pass : plan.passes)
+        EXPECT_TRUE(pass.needed) << pass_name(pass.pass);
+    EXPECT_EQ(plan[Pass::kStars].reason, "forced");
+    EXPECT_EQ(plan[Pass::kDome].reason, "smooth light of all directions");
+    EXPECT_EQ(plan.moon_share, 1.0);
+}
+
+TEST(Plan, DirectionTableGrowsWithTheBudget) {
+    int last_columns = 1000;
+    for (const double budget : {0.25, 0.5, 4.0}) {
+        Quality quality;
+        quality.error_codes = budget;
+        const sky::SkyViewSize size = direction_table_size(quality);
+        EXPECT_LT(size.columns, last_columns) << budget;
+        last_columns = size.columns;
+    }
+    EXPECT_EQ(direction_table_size({}), sky::SkyViewSize{});
+}
+
+TEST(Plan, DomeKeepsItsSizeUntilItIsClearlyTooFine) {
+    // The light of a night without a moon and a tone curve: what bends is the horizon alone.
+    SkyLight light;
+    DomeBend bend;
+    bend.measure(light, eye::tone_parameters({}, 1e-3), 0.0, 1e-3);
+    const auto sized = [&](const DomeSize& held, double error_codes) {
+        Quality quality;
+        quality.error_codes = error_codes;
+        return plan_dome(bend, held, quality);
+    };
+    const DomeSize fine = sized(DomeBend::kLeast, 0.01);
+    const DomeSize coarse = sized(DomeBend::kLeast, 0.02);
+    ASSERT_GT(fine.columns + fine.sky_rows, coarse.columns + coarse.sky_rows);
+    EXPECT_EQ(sized(coarse, 0.01), fine) << "it grows at once";
+    EXPECT_EQ(sized(fine, 0.011), fine) << "it stays while it is hardly too fine";
+    const DomeSize shrunk = sized(fine, 4.0);
+    EXPECT_LT(shrunk.sky_rows, fine.sky_rows);
+}
+
 TEST(Plan, EveryPassSaysWhy) {
     for (const auto& named : tests::four_times()) {
         Plan plan = plan_of(named.scene, {});
-        plan_stars(plan, named.scene, 1.0);
+        plan_stars(plan, named.scene, 1.0, kNone_mag);
         for (std::size_t i = 0; i < kPassCount; ++i) {
             EXPECT_EQ(static_cast<std::size_t>(plan.passes[i].pass), i);
             EXPECT_FALSE(plan.passes[i].reason.empty()) << pass_name(plan.passes[i].pass);

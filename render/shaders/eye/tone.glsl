@@ -13,12 +13,20 @@ struct ToneParameters {
 
 SKYIG_INLINE real luminance_709(rvec3 rgb) { return real(0.2126) * rgb.x + real(0.7152) * rgb.y + real(0.0722) * rgb.z; }
 
-// Moves colours with a negative component towards grey at constant luminance.
+// max(a, b) with its corner rounded over about `width`.
+SKYIG_INLINE real rounded_max(real a, real b, real width) {
+    real apart = a - b;
+    return real(0.5) * (a + b + sqrt(apart * apart + width * width));
+}
+
+// Moves colours with a negative component towards grey at constant luminance; those just inside a little, so that the
+// hues of a sunset do not break off where the gamut ends.
 SKYIG_INLINE rvec3 inside_gamut(rvec3 rgb, real grey) {
+    if (grey <= real(0.0)) return max(rgb, rvec3(real(0.0)));
     real low = min(rgb.x, min(rgb.y, rgb.z));
-    if (low >= real(0.0) || grey <= real(0.0)) return max(rgb, rvec3(real(0.0)));
-    real t = grey / (grey - low);
-    return max(rvec3(grey) + (rgb - rvec3(grey)) * t, rvec3(real(0.0)));
+    real depth = -low / max(grey - low, real(1e-6) * grey);
+    real t = rounded_max(depth, real(0.0), real(0.02));
+    return max(rgb + (rvec3(grey) - rgb) * t, rvec3(real(0.0)));
 }
 
 // Cone share of a luminance, 0.01 .. 4 cd/m2 on a log scale (Jensen et al. 2000).
@@ -48,7 +56,7 @@ SKYIG_INLINE rvec3 display_linear(rvec3 rgb_cd_m2, ToneParameters tone) {
 // What is brighter than the display can show keeps its hue and goes to white: a shoulder on the largest component from
 // 0.7 of full white on, and a share of white that grows with what the shoulder takes away.
 SKYIG_INLINE rvec3 highlights(rvec3 display) {
-    real largest = max(display.x, max(display.y, display.z));
+    real largest = rounded_max(rounded_max(display.x, display.y, real(0.05)), display.z, real(0.05));
     if (!(largest > real(0.7))) return max(display, rvec3(real(0.0)));
     real kept = real(1.0) - real(0.3) * exp2((real(0.7) - largest) * real(4.8089834696));
     real share = kept / largest;

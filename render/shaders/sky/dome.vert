@@ -1,12 +1,15 @@
 #version 450 core
-// The dome of smooth light: vertices are directions, colours are toned already. Perspective-correct interpolation over
-// a flat triangle depends on the direction alone, so that neighbouring channels agree wherever they overlap.
+// The dome of smooth light: vertices are directions, colours are toned already and fade from one state to another.
+// Perspective-correct interpolation over a flat triangle depends on the direction alone, so that neighbouring channels
+// agree wherever they overlap.
 #include "common/dither.glsl"
 
 layout(location = 0) in vec3 a_direction;
-layout(location = 1) in vec3 a_encoded;
+layout(location = 1) in vec3 a_from;
+layout(location = 2) in vec3 a_to;
 
 uniform mat4 u_clip_from_mesh;
+uniform float u_share;
 uniform vec2 u_half_size_px;
 
 out vec3 v_encoded;
@@ -15,7 +18,7 @@ out vec3 v_encoded;
 out float v_dither_phase_w;
 
 void main() {
-    v_encoded = a_encoded;
-    gl_Position = u_clip_from_mesh * vec4(a_direction, 0.0);
+    v_encoded = mix(a_from, a_to, u_share);
+    gl_Position = u_clip_from_mesh * vec4(a_direction, 1.0);
     v_dither_phase_w = dot((gl_Position.xy + gl_Position.w) * u_half_size_px, kDitherStep);
 }

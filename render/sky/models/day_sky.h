@@ -7,7 +7,11 @@
 #include "render/sky/sky_view.h"
 #include "render/sky_settings.h"
 
-namespace skyig::render::sky::models {
+namespace skyig::render::sky {
+
+enum class Orders;
+
+namespace models {
 
 /// Which tables of the air a model needs.
 [[nodiscard]] Orders orders_of(SkyModel model) noexcept;
@@ -45,4 +49,6 @@ class DaySky final : public SkyRadiance {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace skyig::render::sky::models
+}  // namespace models
+
+}  // namespace skyig::render::sky

@@ -79,7 +79,7 @@ TEST(SkyCommandLine, OptionsArrive) {
 
 TEST(SkyCommandLine, ShotTakesAModel) {
     const Invocation made = invoke({"shot", "--sky", "daycycle", "--out", "a.png"});
-    EXPECT_EQ(std::get<ShotOptions>(made.options).sky_model, config::SkyModel::kDayCycle);
+    EXPECT_EQ(std::get<ShotOptions>(made.options).still.sky_model, config::SkyModel::kDayCycle);
 }
 
 }  // namespace

@@ -1,0 +1,91 @@
+#include "clients/skyig/still/still.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <glm/gtc/constants.hpp>
+#include <utility>
+
+#include "server/from_config.h"
+#include "server/log.h"
+#include "server/scene_builder.h"
+#include "server/world/world.h"
+
+namespace skyig::clients {
+
+namespace ephemeris = server::ephemeris;
+
+namespace {
+
+config::Config base_config(const StillOptions& options) {
+    if (options.config_path.empty()) {
+        config::Config config = config::default_config();
+        config::Channel& channel = config.channels.front();
+        channel.width_px = options.width_px;
+        channel.height_px = options.height_px;
+        channel.right_deg = options.fov_deg / 2.0;
+        channel.left_deg = -channel.right_deg;
+        const double top = std::tan(glm::radians(channel.right_deg)) * options.height_px / options.width_px;
+        channel.top_deg = glm::degrees(std::atan(top));
+        channel.bottom_deg = -channel.top_deg;
+        return config;
+    }
+    config::LoadResult loaded = config::load_config(options.config_path);
+    for (const config::ConfigError& error : loaded.errors)
+        fmt::print(stderr, "{}\n", config::to_text(error));
+    if (!loaded.config) throw StillErrors{};
+    return std::move(*loaded.config);
+}
+
+config::Config still_config(const StillOptions& options) {
+    config::Config config = base_config(options);
+    config::Start& start = config.start;
+    start.running = false;
+    start.latitude_deg = options.latitude_deg.value_or(start.latitude_deg);
+    start.longitude_deg = std::remainder(options.longitude_deg.value_or(start.longitude_deg), 360.0);
+    start.height_m = options.height_m.value_or(start.height_m);
+    start.yaw_deg = options.heading_deg.value_or(start.yaw_deg);
+    start.pitch_deg = options.pitch_deg.value_or(start.pitch_deg);
+    start.roll_deg = options.roll_deg.value_or(start.roll_deg);
+    config.air.visibility_m = options.visibility_m.value_or(config.air.visibility_m);
+    config.sky.model = options.sky_model.value_or(config.sky.model);
+    return config;
+}
+
+ephemeris::UtcClockTime still_time(const StillOptions& options, const config::Config& config,
+                                   const server::Clock& clock) {
+    if (const auto asked = ephemeris::parse_utc(options.utc)) return *asked;
+    return server::start_time(config.start, clock);
+}
+
+server::SceneBuilder scene_builder(const StillOptions& options, const config::Config& config) {
+    ephemeris::EarthOrientationResult orientation =
+        server::load_earth_orientation(config, options.config_path);
+    if (!orientation) {
+        fmt::print(stderr, "{}\n", orientation.error);
+        throw StillErrors{};
+    }
+    return server::SceneBuilder(server::ephemeris_model(config), std::move(*orientation.orientation),
+                                server::sky_settings(config.sky), server::ground_settings(config.ground));
+}
+
+}  // namespace
+
+Still make_still(const StillOptions& options, const server::Clock& clock) {
+    server::Log log(clock, server::Severity::kWarning);
+    Still still;
+    still.config = still_config(options);
+    still.utc = still_time(options, still.config, clock);
+    server::SceneBuilder scenes = scene_builder(options, still.config);
+    const server::world::World world(still.config, still.utc, log);
+    still.scene = scenes.build(world, 1);
+    still.leap_seconds_assumed = scenes.leap_seconds_assumed();
+    if (scenes.date_clamped()) {
+        log.warning("{} is beyond the ephemeris: the nearest year it knows is drawn",
+                    ephemeris::to_iso(still.utc));
+    }
+    return still;
+}
+
+}  // namespace skyig::clients

@@ -1,0 +1,36 @@
+// The passes of a frame by name, and how far the picture may be off.
+#pragma once
+
+#include <bitset>
+#include <cstddef>
+#include <string_view>
+
+namespace skyig::render {
+
+enum class Pass {
+    kAirTables,  ///< optical columns and multiple scattering of a new air
+    kSunSky,     ///< direction table of sunlit air
+    kMoonSky,    ///< direction table of moonlit air
+    kDome,       ///< smooth light of all directions, toned at the vertices
+    kStars,
+    kCorona,  ///< what is left of the Sun in a total eclipse
+    kSunDisc,
+    kMoonDisc,
+};
+inline constexpr std::size_t kPassCount = 8;
+
+[[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
+
+/// How far the picture may be off, and what is done for measurements.
+struct Quality {
+    /// Largest error that smooth light may have by being drawn coarser than pixel by pixel, 8-bit display
+    /// codes, 0.1..8.
+    double error_codes = 0.5;
+    /// Passes that run even where they would not show. With Pass::kStars no star is too faint.
+    std::bitset<kPassCount> forced;
+};
+
+/// Step of luminance from one code to the next at middle grey on a display of gamma 2.2, percent.
+inline constexpr double kCode_pct = 1.7;
+
+}  // namespace skyig::render
