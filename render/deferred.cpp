@@ -45,7 +45,7 @@ void DeferredAir::update(const Scene& scene, const Plan& plan, const LightTables
     }
     const double level_rad = std::max(light.straight_horizon_rad, 0.0);
     night_cd_m2_ = kRec709FromXyz * glm::dvec3{night::night_floor_xyz(level_rad, light.straight_horizon_rad,
-                                                                      light.eye_height_m, false)};
+                                                                      light.eye_height_m, false, 0.0)};
 
     const Made& latest = building_ ? back_made_ : front_made_;
     const double step_rad = largest_step(latest.elevations_rad, wanted.elevations_rad, wanted.count);
