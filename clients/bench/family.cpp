@@ -135,11 +135,12 @@ std::string make_counted_calls(const Family& family, std::uint64_t calls) {
     std::string lines;
     double sum = 0.0;
     for (const Contender& contender : family.contenders()) {
-        constexpr std::uint64_t kWarmUpCalls = 4;
-        sum += contender.work(0, kWarmUpCalls);
-        sum += skyig_bench_counted_calls(&contender.work, kWarmUpCalls, calls);
+        const std::uint64_t warm_up = std::min<std::uint64_t>(4, contender.most_counted_calls);
+        const std::uint64_t counted = std::min(calls, contender.most_counted_calls);
+        sum += contender.work(0, warm_up);
+        sum += skyig_bench_counted_calls(&contender.work, warm_up, counted);
         fmt::format_to(std::back_inserter(lines), "{},{},{},{}\n", family.name, contender.model,
-                       contender.cost, calls);
+                       contender.cost, counted);
     }
     // Keeps every call's result in use.
     if (sum != sum) throw std::domain_error("bench: a model's result is not a number");

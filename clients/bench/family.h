@@ -50,9 +50,9 @@ struct InstructionCount {
                              const server::Clock& clock, const TimingOptions& options,
                              std::span<const InstructionCount> instructions);
 
-/// For an instruction counter: makes `calls` calls of each contender's work inside
-/// skyig_bench_counted_calls, after a few outside of it. \return lines of "family,model,cost,calls" in the
-/// same order.
+/// For an instruction counter: makes `calls` calls of each contender's work (or its most_counted_calls)
+/// inside skyig_bench_counted_calls, after a few outside of it. \return lines of "family,model,cost,calls" in
+/// the same order.
 [[nodiscard]] std::string make_counted_calls(const Family& family, std::uint64_t calls);
 
 }  // namespace skyig::clients::bench

@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -107,7 +108,7 @@ std::vector<CaseSet> read_scenes(const std::filesystem::path& path) {
     return sets;
 }
 
-struct Samples {
+struct SkySamples {
     ErrorSamples luminance_percent;
     ErrorSamples chromaticity;
 
@@ -123,12 +124,29 @@ struct Samples {
     }
 };
 
+/// Tables of one air, of either kind when first asked for.
+class SharedAir {
+  public:
+    explicit SharedAir(const sky::AirModel& air) : model_(air) {}
+
+    [[nodiscard]] const sky::AirTables& tables(sky::Orders orders) {
+        std::optional<sky::AirTables>& kept = orders == sky::Orders::kAll ? all_ : first_;
+        if (!kept) kept.emplace(model_, orders);
+        return *kept;
+    }
+
+  private:
+    sky::AirModel model_;
+    std::optional<sky::AirTables> all_;
+    std::optional<sky::AirTables> first_;
+};
+
 /// Asks the model for every case; `take` gets each with the answer.
 template <class Take>
-void ask(MeasuredSky& model, const CaseSet& set, Take&& take) {
-    model.enter(set.air);
+void ask(MeasuredSky& model, SharedAir& air, const std::vector<Case>& cases, Take&& take) {
+    model.enter(air.tables(model.orders()));
     std::pair<double, double> placed{-1.0, -1.0};
-    for (const Case& asked : set.cases) {
+    for (const Case& asked : cases) {
         const std::pair<double, double> wanted{asked.eye_height_m, asked.sun_zenith_deg};
         if (wanted != placed) {
             // The tables' observer on the ground stands a centimetre above it.
@@ -144,34 +162,57 @@ std::string all_tables(const SunRange& range) {
     return fmt::format("all tables, {}", range.name);
 }
 
-std::vector<ErrorEntry> errors_of(const SkyContestant& contestant, const std::vector<CaseSet>& tables,
-                                  const std::vector<CaseSet>& scenes) {
-    const std::unique_ptr<MeasuredSky> model = contestant.make();
-    std::vector<ErrorEntry> entries;
-    std::array<Samples, kRanges.size()> all;
-    std::vector<ErrorEntry> each;
-    for (const CaseSet& set : tables) {
-        std::array<Samples, kRanges.size()> samples;
-        ask(*model, set, [&](const Case& asked, const glm::dvec3& xyz) {
-            for (std::size_t i = 0; i < kRanges.size(); ++i) {
-                if (asked.sun_zenith_deg < kRanges[i].first_deg || asked.sun_zenith_deg > kRanges[i].last_deg)
-                    continue;
-                samples[i].add(asked, xyz);
-                all[i].add(asked, xyz);
-            }
-        });
+/// What is known of one model's errors so far.
+struct Scores {
+    std::array<SkySamples, kRanges.size()> all;
+    std::vector<ErrorEntry> tables;
+    std::vector<ErrorEntry> scenes;
+
+    [[nodiscard]] std::vector<ErrorEntry> entries() const {
+        std::vector<ErrorEntry> entries;
         for (std::size_t i = 0; i < kRanges.size(); ++i)
-            samples[i].tell(fmt::format("{}, {}", set.name, kRanges[i].name), each);
+            all[i].tell(all_tables(kRanges[i]), entries);
+        entries.insert(entries.end(), tables.begin(), tables.end());
+        entries.insert(entries.end(), scenes.begin(), scenes.end());
+        return entries;
     }
+};
+
+void score_table(const CaseSet& set, SharedAir& air, MeasuredSky& model, Scores& scores) {
+    std::array<SkySamples, kRanges.size()> samples;
+    ask(model, air, set.cases, [&](const Case& asked, const glm::dvec3& xyz) {
+        for (std::size_t i = 0; i < kRanges.size(); ++i) {
+            if (asked.sun_zenith_deg < kRanges[i].first_deg || asked.sun_zenith_deg > kRanges[i].last_deg)
+                continue;
+            samples[i].add(asked, xyz);
+            scores.all[i].add(asked, xyz);
+        }
+    });
     for (std::size_t i = 0; i < kRanges.size(); ++i)
-        all[i].tell(all_tables(kRanges[i]), entries);
-    entries.insert(entries.end(), each.begin(), each.end());
-    for (const CaseSet& set : scenes) {
-        Samples samples;
-        ask(*model, set, [&](const Case& asked, const glm::dvec3& xyz) { samples.add(asked, xyz); });
-        samples.tell(set.name, entries);
-    }
-    return entries;
+        samples[i].tell(fmt::format("{}, {}", set.name, kRanges[i].name), scores.tables);
+}
+
+void score_scene(const CaseSet& set, SharedAir& air, MeasuredSky& model, Scores& scores) {
+    SkySamples samples;
+    ask(model, air, set.cases, [&](const Case& asked, const glm::dvec3& xyz) { samples.add(asked, xyz); });
+    samples.tell(set.name, scores.scenes);
+}
+
+/// In the order of the contestants.
+std::vector<Scores> scores_of_all(const std::filesystem::path& truth) {
+    std::vector<Scores> scores(sky_contestants().size());
+    const auto for_each_model = [&](const std::vector<CaseSet>& sets, auto&& score) {
+        for (const CaseSet& set : sets) {
+            SharedAir air(set.air);
+            for (std::size_t i = 0; i < scores.size(); ++i) {
+                MeasuredSky model(sky_contestants()[i].model);
+                score(set, air, model, scores[i]);
+            }
+        }
+    };
+    for_each_model(read_tables(truth / "sky"), score_table);
+    for_each_model(read_scenes(truth / "sky_scene" / "scene.csv"), score_scene);
+    return scores;
 }
 
 /// Bytes that the program has on the heap; 0 where the allocator does not tell.
@@ -180,15 +221,23 @@ std::size_t heap_bytes() {
     return info.uordblks + info.hblkhd;
 }
 
-/// What a model holds while it is drawn.
+/// What a picture holds: the tables of the air, and beside `multi` those of directions, which all models
+/// share.
 std::vector<SizeEntry> sizes_of(const SkyContestant& contestant) {
+    if (!contestant.builds_air) return {};
     const std::size_t before = heap_bytes();
-    const std::unique_ptr<MeasuredSky> model = contestant.make();
+    const MeasuredSky model(contestant.model);
     const std::size_t made = heap_bytes();
-    model->enter(sky::air_model({}));
+    const sky::AirTables air(sky::air_model({}), model.orders());
     const std::size_t entered = heap_bytes();
-    if (made <= before || entered < made) return {};
-    return {{"directions", made - before}, {"air", entered - made}};
+    if (made <= before || entered <= made) return {};
+    std::vector<SizeEntry> sizes{{"air", entered - made}};
+    if (contestant.model == render::SkyModel::kMulti) sizes.push_back({"directions", made - before});
+    return sizes;
+}
+
+std::string name_of(const SkyContestant& contestant) {
+    return std::string(render::name_of(contestant.model));
 }
 
 constexpr std::size_t kDirections = 1024;
@@ -204,9 +253,13 @@ std::shared_ptr<const std::array<glm::vec2, kDirections>> directions() {
     return made;
 }
 
-Work look_up_work(const SkyContestant& contestant) {
-    const std::shared_ptr<MeasuredSky> model = contestant.make();
-    model->enter(sky::air_model({}));
+std::shared_ptr<MeasuredSky> sky_of(const SkyContestant& contestant, SharedAir& air) {
+    auto model = std::make_shared<MeasuredSky>(contestant.model);
+    model->enter(air.tables(model->orders()));
+    return model;
+}
+
+Work look_up_work(const std::shared_ptr<MeasuredSky>& model) {
     model->place(3000.0, 0.5);
     return repeat([model, asked = directions()](std::uint64_t i) {
         const glm::vec2& direction = (*asked)[i % kDirections];
@@ -215,9 +268,7 @@ Work look_up_work(const SkyContestant& contestant) {
 }
 
 /// The Sun climbs a little from call to call, as in flight.
-Work view_work(const SkyContestant& contestant) {
-    const std::shared_ptr<MeasuredSky> model = contestant.make();
-    model->enter(sky::air_model({}));
+Work view_work(const std::shared_ptr<MeasuredSky>& model) {
     return repeat([model](std::uint64_t i) {
         model->place(3000.0, 0.1 + 1e-4 * static_cast<double>(i % 1000));
         return static_cast<double>(model->xyz(1.0F, 1.0F).y);
@@ -225,12 +276,11 @@ Work view_work(const SkyContestant& contestant) {
 }
 
 Work air_work(const SkyContestant& contestant) {
-    const std::shared_ptr<MeasuredSky> model = contestant.make();
-    return repeat([model](std::uint64_t i) {
+    return repeat([orders = render::sky::models::orders_of(contestant.model)](std::uint64_t i) {
         render::Air air;
         air.visibility_m = 40e3 + 10.0 * static_cast<double>(i % 1000);
-        model->enter(sky::air_model(air));
-        return air.visibility_m;
+        const sky::AirTables tables(sky::air_model(air), orders);
+        return static_cast<double>(tables.transmittance(0.0, 1.0)[0]);
     });
 }
 
@@ -258,33 +308,37 @@ Report measure_sky_errors(const std::filesystem::path& truth) {
     report.costs =
         "`look-up` is the light of one direction, in shuffled order. `view` makes what a picture needs when "
         "the Sun "
-        "has moved, `air` when the weather has changed; both whole, on one thread.";
+        "has moved by 0.006 deg (`daycycle` then mostly mixes tables that it has), `air` when the weather "
+        "has changed (that of `single` serves `daycycle`, that of `multi` "
+        "the others); "
+        "both whole, on one thread.";
     report.floor = "a sky of one colour, looked up in the same directions";
     report.headline = {kLuminance, all_tables(kRanges[0]), "look-up", "view"};
     const std::array<const char*, kRanges.size()> plots{"day", "low-sun", "twilight"};
     for (std::size_t i = 0; i < kRanges.size(); ++i) {
-        report.plots.push_back({plots[i],
-                                "Luminance",
-                                all_tables(kRanges[i]),
-                                {{"against a look-up", kLuminance, "look-up"},
-                                 {"against a new view", kLuminance, "view"},
-                                 {"against new air", kLuminance, "air"}}});
+        report.plots.push_back(
+            {plots[i],
+             "Luminance",
+             all_tables(kRanges[i]),
+             {{"against a look-up", kLuminance, "look-up"}, {"against a new view", kLuminance, "view"}}});
     }
-    for (const SkyContestant& contestant : sky_contestants())
-        report.models.push_back({contestant.name,
-                                 contestant.what,
-                                 errors_of(contestant, tables, scenes),
-                                 {},
-                                 sizes_of(contestant)});
+    const std::vector<Scores> scores = scores_of_all(truth);
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+        const SkyContestant& contestant = sky_contestants()[i];
+        report.models.push_back(
+            {name_of(contestant), contestant.what, scores[i].entries(), {}, sizes_of(contestant)});
+    }
     return report;
 }
 
 std::vector<Contender> sky_contenders() {
+    SharedAir air(sky::air_model({}));
     std::vector<Contender> contenders;
     for (const SkyContestant& contestant : sky_contestants()) {
-        contenders.push_back({contestant.name, "look-up", look_up_work(contestant)});
-        contenders.push_back({contestant.name, "view", view_work(contestant)});
-        contenders.push_back({contestant.name, "air", air_work(contestant)});
+        contenders.push_back({name_of(contestant), "look-up", look_up_work(sky_of(contestant, air))});
+        contenders.push_back({name_of(contestant), "view", view_work(sky_of(contestant, air))});
+        if (contestant.builds_air)
+            contenders.push_back({name_of(contestant), "air", air_work(contestant), {}, 1});
     }
     return contenders;
 }

@@ -1,46 +1,32 @@
 #include "clients/bench/sky_models.h"
 
 #include <array>
-#include <optional>
-
-#include "render/sky/sky_view.h"
 
 namespace skyig::clients::bench {
 
 namespace {
 
-namespace sky = render::sky;
+using render::SkyModel;
 
-class Multi final : public MeasuredSky {
-  public:
-    void enter(const sky::AirModel& air) override { tables_.emplace(air); }
-    void place(double eye_height_m, double source_elevation_rad) override {
-        view_.begin(*tables_, eye_height_m, source_elevation_rad);
-        view_.build_all();
-    }
-    [[nodiscard]] glm::vec3 xyz(float elevation_rad, float relative_azimuth_rad) const override {
-        return view_.xyz(elevation_rad, relative_azimuth_rad);
-    }
-
-  private:
-    std::optional<sky::AirTables> tables_;
-    sky::SkyView view_;
-};
-
-template <class Model>
-std::unique_ptr<MeasuredSky> make() {
-    return std::make_unique<Model>();
-}
-
-constexpr std::array<SkyContestant, 1> kContestants{{
-    {"multi", "all orders by angular moments, sixteen wavelengths, a table of 60 x 33 directions",
-     make<Multi>},
+constexpr std::array<SkyContestant, 6> kContestants{{
+    {SkyModel::kCie, "ISO 15469 type 12, zenith of multi"},
+    {SkyModel::kPreetham, "the printed formulas, turbidity from the air"},
+    {SkyModel::kWindlight, "attenuation and convergence colour, default parameters"},
+    {SkyModel::kSingle, "the first order alone, sixteen wavelengths, a table of 60 x 33 directions", true},
+    {SkyModel::kDayCycle, "tables of the first order along the Sun's path, mixed"},
+    {SkyModel::kMulti, "all orders by angular moments, sixteen wavelengths, a table of 60 x 33 directions",
+     true},
 }};
 
 }  // namespace
 
 std::span<const SkyContestant> sky_contestants() noexcept {
     return kContestants;
+}
+
+void MeasuredSky::place(double eye_height_m, double source_elevation_rad) {
+    sky_.begin(settings_, *air_, eye_height_m, source_elevation_rad, true);
+    sky_.build_all();
 }
 
 }  // namespace skyig::clients::bench

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,8 @@ struct Contender {
     Work work;
     /// Of this work alone; empty: the floor of all.
     Work floor = {};
+    /// Calls enough to count instructions of: fewer for works that take long and are always alike.
+    std::uint64_t most_counted_calls = std::numeric_limits<std::uint64_t>::max();
 };
 
 struct Quartiles {
