@@ -189,7 +189,7 @@ TEST_F(Pixel, EqualScenesGiveEqualPictures) {
 
 TEST_F(Pixel, AReplayedFlightDoesNotFlicker) {
     for (const Flight& flight : steadiness_flights()) {
-        const Steps steps = largest_step(flight, 0, 160);
+        const Steps steps = largest_step(flight, 0, 110);
         std::printf("%-30s largest step from frame to frame: %d codes, at frame %d\n", flight.name.c_str(),
                     steps.largest, steps.at_frame);
         EXPECT_LE(steps.largest, 2) << flight.name;
