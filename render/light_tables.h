@@ -63,6 +63,9 @@ class LightTables {
     /// Precondition: update() was called.
     [[nodiscard]] const sky::AirTables& air() const noexcept { return *air_; }
 
+    /// Model and parameters that the air in use can serve: the scene's, or those before it until then.
+    [[nodiscard]] const SkySettings& sky() const noexcept { return sky_; }
+
   private:
     /// What a table was asked to be made for.
     struct Made {

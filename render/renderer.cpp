@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "render/deferred_pass.h"
 #include "render/discs.h"
 #include "render/eye/tone_curve.h"
 #include "render/gl/debug_log.h"
@@ -93,6 +94,7 @@ struct Renderer::Impl {
     void upload_dome();
     void prepare_points_and_discs();
     void draw_dome(const Channel& channel, const glm::dmat4& clip_from_enu);
+    void refresh_deferred();
 
     std::vector<Channel> channels;
     DisplaySettings display;
@@ -109,6 +111,7 @@ struct Renderer::Impl {
     Corona corona;
     SunDisc sun_disc;
     MoonDisc moon_disc;
+    std::unique_ptr<DeferredPass> deferred;  // once a scene is drawn
 
     // The frame in hand.
     SkyFrame frame;
@@ -154,6 +157,11 @@ void Renderer::Impl::draw_dome(const Channel& channel, const glm::dmat4& clip_fr
         dome_mesh.draw_triangles(range.first, range.count);
 }
 
+void Renderer::Impl::refresh_deferred() {
+    deferred->prepare(scene, frame.plan(), frame.tables(), frame.light(), eye::single_precision(frame.tone()),
+                      display.dither);
+}
+
 Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality) {
     if (channels.empty() || channels.size() > kMaxChannels) {
         throw std::runtime_error("a renderer draws 1 to " + std::to_string(kMaxChannels) + " channels, not " +
@@ -171,6 +179,7 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     m.frame.prepare(scene, m.pixel_rad);
     m.upload_dome();
     m.prepare_points_and_discs();
+    if (m.deferred) m.refresh_deferred();
     m.report.plan = m.frame.plan();
     m.report.adaptation_cd_m2 = m.frame.adaptation_cd_m2();
     m.report.gl_errors = m.log.errors();
@@ -205,6 +214,22 @@ void Renderer::draw(std::size_t channel) {
     gl::finish();
 }
 
+void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
+    Impl& m = *impl_;
+    draw(channel);
+    if (channel >= m.channels.size() || channel >= m.scene.view_count) return;
+    const ChannelView& view = m.scene.views[channel];
+    if (!has_area(view.frustum) || !(input.far_m > 0.0)) return;
+    if (!m.deferred) {
+        m.deferred = std::make_unique<DeferredPass>();
+        m.refresh_deferred();
+    }
+    m.targets[channel].bind();
+    gl::set_blend(gl::Blend::kReplace);
+    m.deferred->draw(view, input);
+    gl::finish();
+}
+
 void Renderer::read_back(std::size_t channel, std::span<std::byte> rgba) {
     if (channel < impl_->targets.size()) impl_->targets[channel].read_rgba8(rgba);
 }
@@ -215,6 +240,13 @@ std::span<const Channel> Renderer::channels() const noexcept {
 
 glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu) const {
     return impl_->frame.exact_colour(direction_enu);
+}
+
+glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu, double distance_m,
+                                      const glm::dvec3& rgb_cd_m2) const {
+    const shaders64::ToneParameters& tone = impl_->frame.tone();
+    if (!impl_->deferred) return shaders64::shown(rgb_cd_m2, tone);
+    return shaders64::shown(impl_->deferred->air().under_air(rgb_cd_m2, direction_enu, distance_m), tone);
 }
 
 }  // namespace skyig::render

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/channel.h"
+#include "render/deferred.h"
 #include "render/display.h"
 #include "render/plan.h"
 #include "render/scene.h"
@@ -45,6 +46,11 @@ class Renderer {
     /// Draws one channel of the prepared frame and returns when the pixels are finished.
     void draw(std::size_t channel);
 
+    /// The same with another renderer's picture of that channel, under this frame's air and tone curve. The
+    /// first call allocates and builds the table of the air between (some 40 ms), from then on prepare()
+    /// keeps it; it may throw like the constructor. Ridges stand where a straight ray sees them.
+    void draw_scene(std::size_t channel, const DeferredInput& input);
+
     /// Copies a channel's pixels: RGBA, 8 bits, top row first, width * height * 4 bytes.
     void read_back(std::size_t channel, std::span<std::byte> rgba);
 
@@ -53,6 +59,9 @@ class Renderer {
     /// The colour, encoded for the display and before dither, that the same functions give for one
     /// direction of view (discs and stars left out): what the tests hold the drawn pixels against.
     [[nodiscard]] glm::dvec3 reference_colour(const glm::dvec3& direction_enu) const;
+    /// The same of a thing, given by its own light; after a draw_scene().
+    [[nodiscard]] glm::dvec3 reference_colour(const glm::dvec3& direction_enu, double distance_m,
+                                              const glm::dvec3& rgb_cd_m2) const;
 
   private:
     struct Impl;

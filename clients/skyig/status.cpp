@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <limits>
@@ -69,11 +70,17 @@ int run_status(const StatusOptions& options, server::Clock& clock, int most_page
             fmt::print(stderr, "skyig status: {}", told.text);
             return 1;
         }
-        fmt::print("{}{}", clear ? kClearScreen : page > 0 && !options.json ? "\n" : "", told.text);
+        // Who reads JSON reads nothing else.
+        if (!told.status && options.json) {
+            fmt::print(stderr, "skyig status: {}", told.text);
+        } else {
+            fmt::print("{}{}", clear ? kClearScreen : page > 0 && !options.json ? "\n" : "", told.text);
+        }
         if (!options.watch_s) return 0;
         std::fflush(stdout);
         before = std::move(told.status);
-        next_ns += static_cast<std::int64_t>(*options.watch_s * 1e9);
+        // Pages that a slow answer has made late are not caught up on.
+        next_ns = std::max(next_ns + static_cast<std::int64_t>(*options.watch_s * 1e9), clock.monotonic_ns());
         clock.sleep_until_ns(next_ns);
     }
     return 0;

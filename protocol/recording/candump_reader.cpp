@@ -12,7 +12,7 @@ namespace skyig::protocol::recording {
 namespace {
 
 /// With room for comments; a frame's line is far shorter.
-constexpr std::size_t kMostLineBytes = 4096;
+constexpr std::size_t kMostLineBytes = CandumpReader::kHeadBytes;
 
 std::string_view as_text(std::span<const std::byte> bytes) noexcept {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -21,7 +21,16 @@ std::string_view as_text(std::span<const std::byte> bytes) noexcept {
 }  // namespace
 
 bool CandumpReader::recognises(std::span<const std::byte> head) noexcept {
-    return !head.empty() && (head[0] == std::byte{'('} || head[0] == std::byte{'#'});
+    // Comments begin many files: the first line that is none decides.
+    bool commented = false;
+    for (std::string_view ahead = as_text(head); !ahead.empty();) {
+        const std::size_t end = ahead.find('\n');
+        const std::string_view line = ahead.substr(0, end);
+        if (!is_blank_or_comment(line)) return line.front() == '(';
+        commented = commented || line.find('#') != std::string_view::npos;
+        ahead.remove_prefix(end == std::string_view::npos ? ahead.size() : end + 1);
+    }
+    return commented;
 }
 
 Step CandumpReader::next(ByteWindow& window, RawPacket& packet, Trouble& trouble) {

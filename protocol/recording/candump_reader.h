@@ -14,7 +14,11 @@ namespace skyig::protocol::recording {
 
 class CandumpReader {
   public:
-    /// True if a file that begins like this may be one: a time stamp, or a comment.
+    /// What recognises() wants to see of a file, or all of a shorter one.
+    static constexpr std::size_t kHeadBytes = 4096;
+
+    /// True if a file that begins like this may be one: its first line that is neither blank nor comment
+    /// begins with a time stamp, or there are comments alone.
     [[nodiscard]] static bool recognises(std::span<const std::byte> head) noexcept;
 
     /// The first call reads nothing; then a line a call, blank lines and comments passed over. A line that is

@@ -70,10 +70,11 @@ Result<CaptureReader, std::string> CaptureReader::begin(ByteWindow window, std::
     Format format;
     if (PcapReader::recognises(head)) {
         format.emplace<PcapReader>();
-    } else if (CandumpReader::recognises(head)) {
-        format.emplace<CandumpReader>();
     } else if (head.size() < 4 || load<std::uint32_t>(head.data(), kNativeOrder) != pcapng::block::kSection) {
-        return Error{located(name, {0, unknown_head(head)})};
+        // Looked for last: text asks for a longer look than a pipe may have to give at once.
+        if (!CandumpReader::recognises(window.peek(CandumpReader::kHeadBytes)))
+            return Error{located(name, {0, unknown_head(window.peek(4))})};
+        format.emplace<CandumpReader>();
     }
     CaptureReader reader(std::move(window), std::move(format), std::move(name));
     const Step first = reader.step();

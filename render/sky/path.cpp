@@ -138,4 +138,17 @@ void lay_path(const AirData& data, double eye_height_m, double cosine, Side side
     add_steps(ray, low_m, leave_m, count - before, path);
 }
 
+void lay_steps_between(const AirData& data, double eye_height_m, double cosine,
+                       std::span<const double> boundaries_m, Path& path) {
+    path.count = 0;
+    path.meets_ground = false;
+    const Ray ray{data, eye_height_m, cosine};
+    Densities from = data.densities(ray.height_m(boundaries_m.front()));
+    for (std::size_t i = 1; i < boundaries_m.size(); ++i) {
+        const Densities to = data.densities(ray.height_m(boundaries_m[i]));
+        fill_step(ray, boundaries_m[i - 1], boundaries_m[i], from, to, path.steps[path.count++]);
+        from = to;
+    }
+}
+
 }  // namespace skyig::render::sky

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 
 #include "render/sky/air_data.h"
 
@@ -18,5 +19,11 @@ enum class Side { kSky, kGround };
 /// Fills everything in `path` but the weights.
 void lay_path(const AirData& data, double eye_height_m, double cosine, Side side, int steps_most, Path& path,
               double farthest_m = std::numeric_limits<double>::infinity());
+
+/// One step between each two of `boundaries_m`, rising distances along the ray. The ground is as glass, with
+/// air of height 0 beneath it, so that nothing jumps where a ray begins to meet it. `path.steps` holds as
+/// many.
+void lay_steps_between(const AirData& data, double eye_height_m, double cosine,
+                       std::span<const double> boundaries_m, Path& path);
 
 }  // namespace skyig::render::sky

@@ -43,6 +43,7 @@ Spectrum sharp_transmittance(const Medium& medium, const Path& path) {
 RayLight ray_light(const AirTables& tables, const RayQuery& query) noexcept {
     RayLight light;
     light.transmittance.fill(1.0F);
+    light.diffuse_transmittance.fill(1.0F);
     constexpr double kHalfPi = 0.5 * std::numbers::pi;
     if (!std::isfinite(query.elevation_rad) || !std::isfinite(query.relative_azimuth_rad) ||
         !std::isfinite(query.source_elevation_rad) || std::isnan(query.distance_m)) {
@@ -79,6 +80,8 @@ RayLight ray_light(const AirTables& tables, const RayQuery& query) noexcept {
         transfer[i] = all.v[i] + phase * haze.v[i];
     light.xyz = xyz_of_sunlight(data.model, transfer);
     light.transmittance = sharp_transmittance(data.medium, path);
+    std::copy(std::begin(path.transmittance.v), std::end(path.transmittance.v),
+              light.diffuse_transmittance.begin());
     light.meets_ground = meets_ground;
     return light;
 }

@@ -28,6 +28,8 @@ struct RayLight {
     /// Part of an object's own light that arrives, at the carried wavelengths. What the aerosol scatters by
     /// small angles counts as lost: sharp contrast is what visibility is about.
     Spectrum transmittance{};
+    /// The same without that loss: what `xyz` was marched with.
+    Spectrum diffuse_transmittance{};
     bool meets_ground = false;
 };
 

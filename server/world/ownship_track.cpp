@@ -58,19 +58,20 @@ void OwnshipTrack::stand_at(const Pose& pose) noexcept {
 void OwnshipTrack::report_position(const ephemeris::Geodetic& position, double arrival_s,
                                    std::optional<double> sender_s) noexcept {
     const glm::dvec3 ecef_m = ecef_of(position);
+    const bool goes_on = sender_s && position_offset_.learn(arrival_s, *sender_s);
+    if (!sender_s) position_offset_.reset();
     // The motion goes on as it is by now; the place is what is told.
     if (motion_.moves()) begin_anew(told_at_s(arrival_s, sender_s));
     if (velocity_told_s_ && arrival_s - *velocity_told_s_ > kLongest_s) {
         velocity_told_s_.reset();
         velocity_ecef_m_s_.reset();
     }
-    if (!sender_s) {
-        position_offset_.reset();
-        if (!velocity_told_s_) velocity_ecef_m_s_.reset();
-    } else if (position_offset_.learn(arrival_s, *sender_s) && position_sender_s_) {
-        if (!velocity_told_s_) learn_velocity(ecef_m, *sender_s - *position_sender_s_);
-    } else if (!velocity_told_s_) {
-        velocity_ecef_m_s_.reset();
+    if (!velocity_told_s_) {
+        if (goes_on && position_sender_s_) {
+            learn_velocity(ecef_m, *sender_s - *position_sender_s_);
+        } else {
+            velocity_ecef_m_s_.reset();
+        }
     }
     pose_.position = position;
     ecef_m_ = ecef_m;
@@ -120,7 +121,10 @@ void OwnshipTrack::learn_turn(const glm::dquat& attitude, double step_s) noexcep
 }
 
 double OwnshipTrack::told_at_s(double arrival_s, std::optional<double> sender_s) const noexcept {
-    return sender_s && position_offset_.known() ? *sender_s + position_offset_.value_s() : arrival_s;
+    if (!sender_s || !position_offset_.known()) return arrival_s;
+    // Only positions teach the offset: between two of them a sender's clock may drift, or begin anew.
+    const double told_s = *sender_s + position_offset_.value_s();
+    return told_s > arrival_s || told_s < arrival_s - kLongest_s ? arrival_s : told_s;
 }
 
 bool OwnshipTrack::tell_velocity(RateAxes axes, const Rates& velocity, double arrival_s,

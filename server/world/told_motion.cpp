@@ -80,7 +80,7 @@ glm::dvec3 ToldMotion::own_way_ned_m(const Pose& from, double seconds) const noe
     constexpr double kMostPanels = 400.0;
     const int panels = static_cast<int>(std::clamp(std::ceil(turn_rad / kPanel_rad), 1.0, kMostPanels));
     const double half_s = 0.5 * seconds / panels;
-    static const double kNode = std::sqrt(0.6);
+    constexpr double kNode = 0.774596669241483377;  // sqrt(3/5)
     glm::dvec3 sum{0.0};
     for (int panel = 0; panel < panels; ++panel) {
         const double middle_s = half_s * (2 * panel + 1);

@@ -153,8 +153,13 @@ class World {
     void note_events(const protocol::cigi::SessionEvents& events);
     void reset();
     void supervise(double step_s);
-    void place_ownship(bool attached, const Pose& pose);
-    void place_entity(Entity& entity, bool attached, std::uint16_t parent_id, const Pose& pose);
+    /// \return whether it stands there now
+    bool place_ownship(bool attached, const Pose& pose);
+    bool place_entity(Entity& entity, bool attached, std::uint16_t parent_id, const Pose& pose);
+    /// From here on the entity belongs to the source that speaks.
+    void take_entity(Entity& entity) noexcept;
+    /// Of the sea, within the heights that are drawn.
+    [[nodiscard]] double sea_height_m(const ephemeris::Geodetic& position) const noexcept;
     /// What follows the surface stands on the sea.
     [[nodiscard]] Pose on_the_sea(const protocol::cigi::ConformalClamped& packet) const noexcept;
     /// The entity of a packet that places or makes it; null, and counted, when there is no room for another.

@@ -1,4 +1,5 @@
 // The ownship and other entities: where a host places them and how it lets them move.
+#include <algorithm>
 #include <cmath>
 
 #include "server/world/conditions.h"
@@ -48,12 +49,16 @@ Entity* World::claim_entity(std::uint16_t entity_id) {
                              entity_id, EntityStore::kMost);
         return nullptr;
     }
-    if (entity->source != source_) {
-        const std::optional<Pose> before = entities_.pose_of(entity_id, ownship_, elapsed_s_);
-        entity->mover.track.reset(before.value_or(Pose{}));
-        entity->source = source_;
-    }
+    take_entity(*entity);
     return entity;
+}
+
+void World::take_entity(Entity& entity) noexcept {
+    if (entity.source == source_) return;
+    const std::optional<Pose> before = entities_.pose_of(entity.id, ownship_, elapsed_s_);
+    entity.mover.track.reset(before.value_or(Pose{}));
+    entity.source = source_;
+    carry(entity);
 }
 
 void World::operator()(const cigi::EntityControl& packet, const cigi::PacketInfo& info) {
@@ -63,6 +68,11 @@ void World::operator()(const cigi::EntityControl& packet, const cigi::PacketInfo
     const bool places = info.version == cigi::Version::k33 && !destroyed;
     if (packet.entity_id == 0) {
         ownship_.exists = !destroyed;
+        if (destroyed) {
+            own_ = {};
+            own_.track.reset(ownship_);
+            return;
+        }
         own_.smoothed = packet.extrapolation_enable;
         if (places) place_ownship(packet.attach_state, pose_of(packet));
         carry_ownship();
@@ -94,19 +104,22 @@ void World::operator()(const cigi::EntityPosition& packet) {
 
 Pose World::on_the_sea(const cigi::ConformalClamped& packet) const noexcept {
     Pose pose{{packet.latitude, packet.longitude, 0.0}, static_cast<double>(packet.yaw)};
-    pose.position.height_m = sea_below(weather_, surfaces_, pose.position).height_m;
+    pose.position.height_m = sea_height_m(pose.position);
     return pose;
+}
+
+double World::sea_height_m(const ephemeris::Geodetic& position) const noexcept {
+    return std::clamp<double>(sea_below(weather_, surfaces_, position).height_m, ephemeris::kMinEyeHeight_m,
+                              ephemeris::kMaxEyeHeight_m);
 }
 
 void World::operator()(const cigi::ConformalClamped& packet) {
     if (!obeys(config::Aspect::kOwnship)) return;
     if (packet.entity_id == 0) {
         ownship_.exists = true;
-        place_ownship(false, on_the_sea(packet));
-        own_.clamped = true;
+        if (place_ownship(false, on_the_sea(packet))) own_.clamped = true;
     } else if (Entity* entity = claim_entity(packet.entity_id)) {
-        place_entity(*entity, false, 0, on_the_sea(packet));
-        entity->mover.clamped = true;
+        if (place_entity(*entity, false, 0, on_the_sea(packet))) entity->mover.clamped = true;
     }
 }
 
@@ -130,38 +143,40 @@ void World::take_track(std::size_t source) noexcept {
     carry_ownship();
 }
 
-void World::place_ownship(bool attached, const Pose& pose) {
+bool World::place_ownship(bool attached, const Pose& pose) {
     if (attached) {
         ++counters_.ownship_attached;
         outbox_.messages.add(Matter::kPacketIgnored, "the ownship is attached to an entity: not supported");
         log_.limited("ownship attached", kRepeatAfter_s, Severity::kWarning,
                      "the ownship is attached to another entity: not supported, its last place is held");
-        return;
+        return false;
     }
-    if (!is_drawn(pose.position)) return;
+    if (!is_drawn(pose.position)) return false;
     take_track(source_);
     own_.place(pose, elapsed_s_, own_.smoothed ? stamp_s_ : std::nullopt);
     static_cast<Pose&>(ownship_) = pose;
     ownship_.placed_by_host = true;
+    return true;
 }
 
-void World::place_entity(Entity& entity, bool attached, std::uint16_t parent_id, const Pose& pose) {
+bool World::place_entity(Entity& entity, bool attached, std::uint16_t parent_id, const Pose& pose) {
     if (attached) {
         const auto& [x_m, y_m, z_m] = pose.position;
         const glm::dvec3 offset_m{x_m, y_m, z_m};
         if (glm::length(offset_m) > kLongestOffset_m) {
             ++counters_.position_refused;
-            return;
+            return false;
         }
         entity.offset_m = offset_m;
         entity.on_parent = pose;
         entity.parent_id = parent_id;
         entity.attached = true;
-        return;
+        return true;
     }
-    if (!is_drawn(pose.position, entity.id)) return;
+    if (!is_drawn(pose.position, entity.id)) return false;
     entity.attached = false;
     entity.mover.place(pose, elapsed_s_, entity.mover.smoothed ? stamp_s_ : std::nullopt);
+    return true;
 }
 
 void World::note_smoothing(std::size_t source, bool smoothing) noexcept {
@@ -189,7 +204,11 @@ void World::tell_rates(const Packet& packet, Tell&& tell) {
         ++counters_.entity_unknown;
         return;
     }
-    if (packet.entity_id == 0) take_track(source_);
+    if (packet.entity_id == 0) {
+        take_track(source_);
+    } else {
+        take_entity(*entity);
+    }
     Mover& mover = entity == nullptr ? own_ : entity->mover;
     const std::optional<double> stamp_s = mover.smoothed ? stamp_s_ : std::nullopt;
     if (!packet.apply_to_part && tell(mover.track, stamp_s)) return;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "render/gl/headless_context.h"
+#include "render/gl/texture.h"
 #include "render/renderer.h"
 #include "tests/bench/spent.h"
 #include "tests/render/scenes.h"
@@ -43,6 +44,32 @@ Costs measure(Renderer& renderer, Scene scene, int rounds) {
     return costs;
 }
 
+// Another renderer's picture over the whole channel, all of it at 20 km.
+void print_deferred(Scene scene, int rounds) {
+    constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
+    const gl::Texture colour(gl::TexelFormat::kRgba32F, kWidth, kHeight);
+    const gl::Texture depth(gl::TexelFormat::kR32F, kWidth, kHeight);
+    colour.update(std::vector<float>(kPixels * 4, 2000.0F));
+    depth.update(std::vector<float>(kPixels, 0.2F));
+    tests::add_view(scene, tests::symmetric_frustum(30.0, kWidth, kHeight),
+                    tests::view_from_enu(175.0, 8.0, 0.0));
+    Renderer renderer({{"only", kWidth, kHeight}}, {});
+    Write write_once(kWidth, kHeight);
+    std::vector<double> writes, draws, shared;
+    for (int i = -5; i < rounds; ++i) {
+        scene.time_s += 1.0 / 30.0;
+        const Spent write = spent(write_once);
+        shared.push_back(spent([&] { renderer.prepare(scene); }).wall_ms);
+        const Spent sky = spent([&] { renderer.draw(0); });
+        const Spent both = spent([&] { renderer.draw_scene(0, {colour.name(), depth.name(), 100e3}); });
+        if (i < 0) continue;
+        writes.push_back((both.wall_ms - sky.wall_ms) / write.wall_ms);
+        draws.push_back((both.processor_ms - sky.processor_ms) / write.processor_ms);
+    }
+    std::printf("deferred picture over every pixel: %.2f writes, of cpu %.2f; shared %.3f ms\n",
+                median(writes), median(draws), median(shared));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -61,5 +88,6 @@ int main(int argc, char** argv) {
                     median(costs.draw), median(costs.ratio), median(costs.processor_ratio),
                     median(costs.prepare), median(costs.read_back), renderer.prepare(scene).stars_drawn);
     }
+    print_deferred(tests::four_times()[1].scene, rounds);
     return 0;
 }

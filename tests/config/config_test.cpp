@@ -93,6 +93,12 @@ visibility_contrast = 0.02
 temperature_c = -10
 pressure_hpa = 990
 humidity_pct = 80
+wind_m_s = 7
+wind_from_deg = 250
+[ground]
+surface = "sea"
+albedo = 0.3
+snow_pct = 40
 [sky]
 sun = false
 moon = false
@@ -145,6 +151,11 @@ group_id = 3
     EXPECT_EQ(c.start.pitch_deg, -5.0);
     EXPECT_EQ(c.air.visibility_contrast, 0.02);
     EXPECT_EQ(c.air.temperature_c, -10.0);
+    EXPECT_EQ(c.air.wind_m_s, 7.0);
+    EXPECT_EQ(c.air.wind_from_deg, 250.0);
+    EXPECT_EQ(c.ground.surface, Surface::kSea);
+    EXPECT_EQ(c.ground.albedo, 0.3);
+    EXPECT_EQ(c.ground.snow_pct, 40.0);
     EXPECT_FALSE(c.sky.sun || c.sky.moon || c.sky.stars);
     EXPECT_EQ(c.sky.star_intensity_pct, 40.0);
     EXPECT_EQ(c.ephemeris.model, EphemerisModel::kErfa);

@@ -274,7 +274,7 @@ TEST(Replay, WhatCannotBeReplayedOrRecordedIsOneLine) {
         EXPECT_THAT(finished.err, HasSubstr(part));
     };
     fails({"--replay", "no/such.pcapng"}, "no/such.pcapng");
-    fails({"--replay", kFlight}, "fg_c172p_takeoff_bikf.csv: byte 0: ");
+    fails({"--replay", kFlight}, "fg_c172p_takeoff_bikf.csv: byte 0: 23 20 46 6C is the head of no capture");
     fails({"--record", "no/such/dir/a.pcapng"}, "cannot be made for a recording");
     fails({"--hashes", "no/such/dir/hashes"}, "cannot be made for hashes");
     EXPECT_EQ(run({SKYIGD_PROGRAM, "--config", config, "--speed", "2"}).status, 2);

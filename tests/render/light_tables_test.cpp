@@ -109,7 +109,7 @@ TEST(LightTables, DayCycleFollowsTheSunAsOftenAsTheOthers) {
     LightTables tables;
     double last = luminance(step(tables, scene), 30, 180);
     double largest = 0.0;
-    for (double sun = 20.0; sun > 18.0; sun -= 0.004) {
+    for (double sun = 20.0; sun > 19.0; sun -= 0.004) {
         scene = make_scene(sun, 180, -20, 0, 1000);
         scene.sky.model = SkyModel::kDayCycle;
         const double now = luminance(step(tables, scene), 30, 180);

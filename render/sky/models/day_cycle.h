@@ -22,6 +22,8 @@ namespace skyig::render::sky::models {
 /// Limits: as `single`, 25 % too dark at noon and worse in twilight, too blue (`desaturation` hides it).
 class DayCycle final : public SkyRadiance {
   public:
+    explicit DayCycle(const SkyViewSize& size = {}) : before_(size), after_(size) {}
+
     /// \param tables  with the first order alone. Parameters as SkyView::begin().
     void begin(const DayCycleSettings& settings, const AirTables& tables, double eye_height_m,
                double source_elevation_rad) noexcept;
@@ -41,6 +43,8 @@ class DayCycle final : public SkyRadiance {
 
   private:
     struct Place {
+        explicit Place(const SkyViewSize& size) : view(size) {}
+
         SkyView view;
         int number = 0;
         bool made = false;

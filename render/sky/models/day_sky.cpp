@@ -14,7 +14,7 @@ Orders orders_of(SkyModel model) noexcept {
 }
 
 struct DaySky::State {
-    explicit State(const SkyViewSize& size) : view(size) {}
+    explicit State(const SkyViewSize& size) : view(size), day_cycle(size) {}
 
     SkyView view;  // `multi` and `single`
     DayCycle day_cycle;

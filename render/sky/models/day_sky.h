@@ -21,7 +21,7 @@ namespace models {
 /// buffering is the caller's.
 class DaySky final : public SkyRadiance {
   public:
-    /// \param size  of the table of `multi` and `single`
+    /// \param size  of the tables of the models that have some
     explicit DaySky(const SkyViewSize& size = {});
     ~DaySky() override;
     DaySky(const DaySky&) = delete;
@@ -50,4 +50,5 @@ class DaySky final : public SkyRadiance {
 };
 
 }  // namespace models
+
 }  // namespace skyig::render::sky

@@ -194,6 +194,17 @@ TEST(CaptureReader, APcapCutAnywhereGivesItsWholeRecords) {
     }
 }
 
+TEST(CaptureReader, CommentsAloneMakeNoBusLog) {
+    const auto opens = [](std::string_view text) {
+        return CaptureReader::over(std::as_bytes(std::span(text)), "FILE").has_value();
+    };
+    EXPECT_TRUE(opens("# a bus\n\n(1.000000) can0 12C#00\n"));
+    EXPECT_TRUE(opens("\n(1.000000) can0 12C#00\n"));
+    EXPECT_TRUE(opens("# nothing was heard\n"));
+    EXPECT_FALSE(opens("# a flight\ntime,latitude\n0,47\n"));
+    EXPECT_FALSE(opens("[daemon]\nrate_hz = 60\n"));
+}
+
 TEST(CaptureReader, SectionsMayDifferInOrderInterfacesAndComment) {
     const Builder first = Builder(ByteOrder::kLittle)
                               .section("one")

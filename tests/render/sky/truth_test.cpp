@@ -86,20 +86,22 @@ TEST_P(SkyTruth, LookUpAgreesWithMonteCarlo) {
 
 INSTANTIATE_TEST_SUITE_P(
     Tables, SkyTruth,
-    testing::Values(
-        Case{"ground_A.csv",
-             true,
-             {{0, 80, 0.008, 0.001}, {84, 88.5, 0.012, 0.001}, {89, 92.5, 0.015, 0.002}, {93, 97, 0.06, 0.006}}},
-        Case{"ground_B.csv",
-             false,
-             {{0, 80, 0.005, 0.001},
-              {84, 88.5, 0.006, 0.001},
-              {89, 92.5, 0.01, 0.002},
-              {93, 97, 0.04, 0.012}}},
-        Case{"air_B_10000m.csv",
-             false,
-             {{0, 80, 0.006, 0.001}, {84, 88.5, 0.006, 0.002}, {93, 97, 0.04, 0.006}}},
-        Case{"air_B_400000m.csv", false, {{0, 80, 0.02, 0.001}, {84, 88.5, 0.01, 0.001}}}));
+    testing::Values(Case{"ground_A.csv",
+                         true,
+                         {{0, 80, 0.008, 0.001},
+                          {84, 88.5, 0.012, 0.001},
+                          {89, 92.5, 0.015, 0.002},
+                          {93, 97, 0.06, 0.006}}},
+                    Case{"ground_B.csv",
+                         false,
+                         {{0, 80, 0.005, 0.001},
+                          {84, 88.5, 0.006, 0.001},
+                          {89, 92.5, 0.01, 0.002},
+                          {93, 97, 0.04, 0.012}}},
+                    Case{"air_B_10000m.csv",
+                         false,
+                         {{0, 80, 0.006, 0.001}, {84, 88.5, 0.006, 0.002}, {93, 97, 0.04, 0.006}}},
+                    Case{"air_B_400000m.csv", false, {{0, 80, 0.02, 0.001}, {84, 88.5, 0.01, 0.001}}}));
 
 // Log-linear between the carried wavelengths, as the coefficients are smooth.
 double at_wavelength(const Spectrum& spectrum, double nm) {

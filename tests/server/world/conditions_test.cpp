@@ -287,6 +287,31 @@ WaveControl wave(WeatherScope scope, int region_id, int wave_id, float height_m)
     return control;
 }
 
+TEST_F(ConditionsTest, SnowIsConditionOneTheRegionsOverTheGlobal) {
+    const auto snow = [](WeatherScope scope, int region_id, int coverage, int condition_id) {
+        protocol::cigi::TerrestrialSurfaceControl control;
+        control.scope = scope;
+        control.entity_region_id = static_cast<std::uint16_t>(region_id);
+        control.condition_id = static_cast<std::uint16_t>(condition_id);
+        control.enable = true;
+        control.coverage = static_cast<std::uint8_t>(coverage);
+        return control;
+    };
+    EXPECT_FALSE(snow_cover(surfaces_, regions()));
+    ASSERT_TRUE(surfaces_.set(snow(WeatherScope::kGlobal, 0, 90, 2)));
+    EXPECT_FALSE(snow_cover(surfaces_, regions())) << "another condition";
+    ASSERT_TRUE(surfaces_.set(snow(WeatherScope::kGlobal, 0, 40, kSnowCondition)));
+    EXPECT_DOUBLE_EQ(snow_cover(surfaces_, regions()).value(), 0.4);
+    ASSERT_TRUE(weather_.set(region(3)));
+    ASSERT_TRUE(surfaces_.set(snow(WeatherScope::kRegional, 3, 100, kSnowCondition)));
+    EXPECT_TRUE(surfaces_.is_regional());
+    EXPECT_DOUBLE_EQ(snow_cover(surfaces_, regions()).value(), 1.0);
+    auto off = snow(WeatherScope::kGlobal, 0, 40, kSnowCondition);
+    off.enable = false;
+    ASSERT_TRUE(surfaces_.set(off));
+    EXPECT_FALSE(snow_cover(surfaces_, RegionsAt()));
+}
+
 TEST_F(ConditionsTest, WavesAreTheRegionsOverTheGlobal) {
     const auto heights = [this](double longitude_deg) {
         std::vector<double> all;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <GeographicLib/Geocentric.hpp>
@@ -209,6 +210,53 @@ TEST(OwnshipTrack, ToldRatesHoldFromTheStampNotFromTheArrival) {
     // Without stamp, from the arrival.
     ASSERT_TRUE(track.tell_velocity(RateAxes::kGround, north(0.0), 10.30, std::nullopt));
     EXPECT_NEAR(distance_m({0.0, 0.0, 0.0}, track.at(99.0).position), 10.0, 0.01);
+}
+
+// A host that has placed its craft once and then tells rates alone, by a clock that the track cannot learn.
+struct RatesAlone {
+    RatesAlone() {
+        track.report_position({0.0, 0.0, 1000.0}, 0.0, 0.0);
+        track.carry_told(true, 0.0);
+    }
+    void tell(double north_m_s, double arrival_s, double sender_s) {
+        EXPECT_TRUE(track.tell_velocity(RateAxes::kGround, {{north_m_s, 0.0, 0.0}, {}}, arrival_s, sender_s));
+    }
+    [[nodiscard]] double north_m(double now_s) {
+        track.advance(now_s);
+        return track.at(now_s).position.latitude_deg * 110'574.3;
+    }
+    OwnshipTrack track;
+};
+
+TEST(OwnshipTrack, RatesAloneFollowASendersClockThatDrifts) {
+    RatesAlone host;
+    double largest_m = 0.0;
+    for (int minute = 1; minute <= 60; ++minute) {
+        const double now_s = 60.0 * minute;
+        host.tell(minute % 2 == 0 ? -250.0 : 250.0, now_s, now_s * 1.0002);
+        // Stood in the first minute, then flies there and back.
+        const double wanted_m = minute % 2 == 0 ? 15'000.0 : 0.0;
+        largest_m = std::max(largest_m, std::abs(host.north_m(now_s) - wanted_m));
+        for (int second = 1; second < 60; second += 5)
+            (void)host.north_m(now_s + second);
+    }
+    std::printf("largest error of rates alone by a clock 200 ppm fast: %.1f m\n", largest_m);
+    EXPECT_LT(largest_m, 60.0);
+}
+
+TEST(OwnshipTrack, RatesAloneSurviveAJumpOfTheSendersClock) {
+    for (const double jump_s : {3600.0, -3600.0}) {
+        for (const bool moving : {false, true}) {
+            RatesAlone host;
+            if (moving) host.tell(100.0, 1.0, 1.0);
+            host.tell(50.0, 20.0, 20.0 + jump_s);
+            const double until_then_m = moving ? 1900.0 : 0.0;
+            EXPECT_NEAR(host.north_m(20.0), until_then_m, 1.0) << jump_s << moving;
+            EXPECT_NEAR(host.north_m(24.0), until_then_m + 200.0, 1.0) << jump_s << moving;
+            host.tell(0.0, 30.0, 30.0 + jump_s);
+            EXPECT_NEAR(host.north_m(31.0), until_then_m + 500.0, 1.0) << jump_s << moving;
+        }
+    }
 }
 
 TEST(OwnshipTrack, ZeroRatesLeaveItToTheReportsAgain) {

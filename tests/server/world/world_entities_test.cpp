@@ -283,6 +283,22 @@ TEST_F(WorldEntitiesTest, WhatIsClampedRidesOnTheSea) {
     say(entity(0));
     run(0.1);
     EXPECT_EQ(ownship.position.height_m, 1000.0) << "placed freely, it leaves the sea";
+    tide.sea_surface_height = 3e38F;
+    say(tide, ship);
+    run(0.1);
+    EXPECT_EQ(ownship.position.height_m, ephemeris::kMaxEyeHeight_m) << "no sea stands higher than is drawn";
+}
+
+TEST_F(WorldEntitiesTest, ADestroyedOwnshipStaysWhereItWas) {
+    cigi::EntityControl control = entity(0);
+    say(control, ahead(0, 100.0F));
+    run(1.0);
+    control.entity_state = cigi::EntityState::kDestroyed;
+    say(control);
+    run(0.1);
+    const ephemeris::Geodetic last = bench_.world.ownship().position;
+    run(5.0);
+    EXPECT_EQ(bench_.world.ownship().position, last);
 }
 
 }  // namespace

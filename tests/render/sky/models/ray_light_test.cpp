@@ -46,7 +46,7 @@ TEST(RayLight, ContrastAtTheVisibilityIsFivePercent) {
     for (const double visibility_m : {2000.0, 10e3, 40e3}) {
         Air air;
         air.visibility_m = visibility_m;
-        const AirTables tables(air_model(air));
+        const AirTables tables(air_model(air), Orders::kFirst);
         RayQuery ray;
         ray.source_elevation_rad = 0.6;
         ray.distance_m = visibility_m;

@@ -1,0 +1,80 @@
+// Another renderer's picture of one channel, to be put under our air.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <memory>
+
+#include "render/channel.h"
+#include "render/display.h"
+#include "render/light_tables.h"
+#include "render/scene.h"
+#include "render/shaders/shared.h"
+#include "render/sky/models/aerial_table.h"
+#include "render/sky_light.h"
+
+namespace skyig::render {
+
+/// GL names of two textures of the renderer's context, each of the channel's size, bottom row first, drawn
+/// from the channel's eye through its frustum. Where depth is 1 or more (or not a number) nothing was drawn:
+/// the sky stays. Depths below 0 count as 0, colours below 0 or not a number as black.
+struct DeferredInput {
+    /// Linear Rec.709 in cd/m2, three or four components of any float format; alpha is not used.
+    unsigned colour_texture = 0;
+    /// Distance along the view axis over `far_m`, one float component.
+    unsigned depth_texture = 0;
+    /// Of the far plane, metres, > 0.
+    double far_m = 100e3;
+};
+
+/// The air between the eye and things for a frame's Sun and Moon, kept fresh in slices like LightTables. Free
+/// of GL.
+class DeferredAir {
+  public:
+    static constexpr int kRowsAFrame = 8;
+
+    /// After LightTables::update(). The first call, and one that finds eye, lights or air somewhere else
+    /// altogether, builds the whole table at once.
+    void update(const Scene& scene, const Plan& plan, const LightTables& tables, const SkyLight& light);
+
+    /// One light of the frame: where it stands, what its table's light becomes.
+    struct Source {
+        glm::dvec3 direction_enu{0.0, 0.0, 1.0};
+        glm::dmat3 rgb{1.0};
+    };
+    [[nodiscard]] const sky::models::AerialTable& table() const noexcept { return front_; }
+    [[nodiscard]] std::size_t source_count() const noexcept { return source_count_; }
+    [[nodiscard]] const Source& source(std::size_t i) const noexcept { return sources_[i]; }
+    /// Of endless air with neither Sun nor Moon, linear Rec.709.
+    [[nodiscard]] const glm::dvec3& night_cd_m2() const noexcept { return night_cd_m2_; }
+    /// Rises whenever the table in use is replaced.
+    [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
+
+    /// What the shader makes of a thing, in double. \param direction_enu  unit vector
+    [[nodiscard]] glm::dvec3 under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3& direction_enu,
+                                       double distance_m) const noexcept;
+
+  private:
+    /// What a table was made for.
+    struct Made {
+        std::shared_ptr<const sky::AirData> air;
+        SkySettings sky;
+        double height_m = 0.0;
+        std::array<double, sky::models::AerialTable::kMaxLights> elevations_rad{};
+        std::size_t count = 0;
+    };
+    void begin(const Made& wanted, const LightTables& tables);
+
+    sky::models::AerialTable front_;
+    sky::models::AerialTable back_;
+    Made front_made_;
+    Made back_made_;
+    bool building_ = false;
+    std::array<Source, sky::models::AerialTable::kMaxLights> sources_{};
+    std::size_t source_count_ = 0;
+    glm::dvec3 night_cd_m2_{0.0};
+    std::uint64_t revision_ = 0;
+};
+
+}  // namespace skyig::render

@@ -1,0 +1,95 @@
+#include "render/deferred_pass.h"
+
+#include <span>
+#include <vector>
+
+namespace skyig::render {
+
+namespace {
+
+using Table = sky::models::AerialTable;
+
+std::span<const float> floats(const std::vector<Table::Texel>& texels) {
+    return {texels.front().data(), texels.size() * 4};
+}
+
+gl::Texture colours() {
+    return {gl::TexelFormat::kRgba32F, Table::kColumns, Table::kRows, Table::kSlices};
+}
+
+}  // namespace
+
+DeferredPass::DeferredPass()
+    : program_("sky/deferred.vert", "sky/deferred.frag"),
+      triangle_({}, 3),
+      tone_(program_, true),
+      map_{program_.uniform("u_map.eye_radius_m"),    program_.uniform("u_map.outside_m2"),
+           program_.uniform("u_map.inside_radius_m"), program_.uniform("u_map.horizon_sine"),
+           program_.uniform("u_map.scale"),           program_.uniform("u_map.rise_m"),
+           program_.uniform("u_map.fall_m"),          program_.uniform("u_map.longest_m")},
+      sources_{{{program_.uniform("u_source_enu[0]"), program_.uniform("u_source_rgb[0]")},
+                {program_.uniform("u_source_enu[1]"), program_.uniform("u_source_rgb[1]")}}},
+      haze_g_(program_.uniform("u_haze_g")),
+      source_count_(program_.uniform("u_source_count")),
+      night_(program_.uniform("u_night_cd_m2")),
+      dither_(program_.uniform("u_dither_codes")),
+      centre_(program_.uniform("u_far_centre")),
+      right_(program_.uniform("u_far_right")),
+      up_(program_.uniform("u_far_up")),
+      extinction_(gl::TexelFormat::kRgba32F, Table::kDepths, Table::kRows),
+      rest_{colours(), colours()},
+      haze_{colours(), colours()} {
+    program_.set(program_.uniform("u_table_size"),
+                 glm::vec3{glm::ivec3{Table::kColumns, Table::kRows, Table::kSlices}});
+    program_.set(program_.uniform("u_depths"), static_cast<float>(Table::kDepths));
+}
+
+void DeferredPass::upload() {
+    const Table& table = air_.table();
+    extinction_.update(floats(table.extinction()));
+    for (std::size_t i = 0; i < table.light_count(); ++i) {
+        rest_[i].update(floats(table.colours(i).rest));
+        haze_[i].update(floats(table.colours(i).haze));
+    }
+    const shaders64::AerialMap& map = table.map();
+    const std::array values{map.eye_radius_m, map.outside_m2, map.inside_radius_m, map.horizon_sine,
+                            map.scale,        map.rise_m,     map.fall_m,          map.longest_m};
+    for (std::size_t i = 0; i < values.size(); ++i)
+        program_.set(map_[i], static_cast<float>(values[i]));
+    program_.set(haze_g_, static_cast<float>(table.haze_g()));
+    uploaded_ = air_.revision();
+}
+
+void DeferredPass::prepare(const Scene& scene, const Plan& plan, const LightTables& tables,
+                           const SkyLight& light, const shaders32::ToneParameters& tone, bool dither) {
+    air_.update(scene, plan, tables, light);
+    if (uploaded_ != air_.revision()) upload();
+    for (std::size_t i = 0; i < air_.source_count(); ++i) {
+        program_.set(sources_[i].direction, glm::vec3{air_.source(i).direction_enu});
+        program_.set(sources_[i].rgb, glm::mat4{glm::dmat4{air_.source(i).rgb}});
+    }
+    program_.set(source_count_, static_cast<float>(air_.source_count()));
+    program_.set(night_, glm::vec3{air_.night_cd_m2()});
+    program_.set(dither_, dither ? 1.0F : 0.0F);
+    tone_.set(program_, tone);
+}
+
+void DeferredPass::draw(const ChannelView& view, const DeferredInput& input) const {
+    const ImagePlane p = image_plane(view.frustum);
+    const glm::dmat3 enu_from_view = glm::transpose(view.view_from_enu) * input.far_m;
+    program_.use();
+    program_.set(centre_, glm::vec3{enu_from_view *
+                                    glm::dvec3{0.5 * (p.left + p.right), 0.5 * (p.bottom + p.top), -1.0}});
+    program_.set(right_, glm::vec3{enu_from_view * glm::dvec3{0.5 * (p.right - p.left), 0.0, 0.0}});
+    program_.set(up_, glm::vec3{enu_from_view * glm::dvec3{0.0, 0.5 * (p.top - p.bottom), 0.0}});
+    gl::bind_texture(0, input.colour_texture);
+    gl::bind_texture(1, input.depth_texture);
+    gl::bind_texture(2, extinction_.name());
+    for (int i = 0; i < 2; ++i) {
+        gl::bind_texture(3 + 2 * i, rest_[static_cast<std::size_t>(i)].name());
+        gl::bind_texture(4 + 2 * i, haze_[static_cast<std::size_t>(i)].name());
+    }
+    triangle_.draw_strip(3);
+}
+
+}  // namespace skyig::render

@@ -1,0 +1,47 @@
+// Draws another renderer's picture under our air.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "render/deferred.h"
+#include "render/discs.h"
+#include "render/gl/mesh.h"
+#include "render/gl/program.h"
+#include "render/gl/texture.h"
+
+namespace skyig::render {
+
+class DeferredPass {
+  public:
+    /// \throws std::runtime_error when the program or the textures cannot be made
+    DeferredPass();
+
+    /// Once a frame, after LightTables::update().
+    void prepare(const Scene& scene, const Plan& plan, const LightTables& tables, const SkyLight& light,
+                 const shaders32::ToneParameters& tone, bool dither);
+    /// Into the framebuffer that is bound, without blending.
+    void draw(const ChannelView& view, const DeferredInput& input) const;
+
+    [[nodiscard]] const DeferredAir& air() const noexcept { return air_; }
+
+  private:
+    struct SourceUniforms {
+        int direction, rgb;
+    };
+    void upload();
+
+    DeferredAir air_;
+    gl::Program program_;
+    gl::Mesh triangle_;
+    ToneUniforms tone_;
+    std::array<int, 8> map_;
+    std::array<SourceUniforms, 2> sources_;
+    int haze_g_, source_count_, night_, dither_, centre_, right_, up_;
+    gl::Texture extinction_;
+    std::array<gl::Texture, 2> rest_;
+    std::array<gl::Texture, 2> haze_;
+    std::uint64_t uploaded_ = 0;
+};
+
+}  // namespace skyig::render

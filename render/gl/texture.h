@@ -1,0 +1,37 @@
+// Textures of four (or one) floats a texel, rewritten as a whole.
+#pragma once
+
+#include <span>
+
+namespace skyig::render::gl {
+
+enum class TexelFormat { kRgba32F, kR32F };
+
+/// Two-dimensional with a depth of 0, else three-dimensional. Linear between texel centres, the edge holds
+/// beyond.
+class Texture {
+  public:
+    /// \throws std::runtime_error if the driver cannot hold that size
+    Texture(TexelFormat format, int width, int height, int depth = 0);
+    ~Texture();
+    Texture(Texture&& other) noexcept;
+    Texture& operator=(Texture&& other) noexcept;
+    Texture(const Texture&) = delete;
+    Texture& operator=(const Texture&) = delete;
+
+    /// All texels: columns, then rows from the lowest, then layers. Fewer than that change nothing.
+    void update(std::span<const float> texels) const;
+
+    /// GL's name for it.
+    [[nodiscard]] unsigned name() const noexcept { return name_; }
+
+  private:
+    TexelFormat format_;
+    int width_, height_, depth_;
+    unsigned name_ = 0;
+};
+
+/// For the draws that follow. \param texture  GL name, of this library or another's
+void bind_texture(int unit, unsigned texture);
+
+}  // namespace skyig::render::gl
