@@ -47,7 +47,8 @@ function(skyig_library NAME)
   target_link_libraries(${NAME} PUBLIC glm::glm ${ARG_DEPS} PRIVATE skyig_build ${ARG_PRIVATE_DEPS})
 endfunction()
 
-# What is tested is optimised, the tests' own code hardly: that is two thirds of what it costs to compile.
+# What is tested is optimised, the tests' own code hardly: that is two thirds of what it costs to compile. Folders
+# whose tests compute much themselves set SKYIG_TEST_OPTIMISATION to -O1 under the sanitizers too.
 if(SKYIG_SANITIZE)
   set(SKYIG_TEST_OPTIMISATION -O0)
 elseif(CMAKE_BUILD_TYPE STREQUAL "Release")

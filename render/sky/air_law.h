@@ -31,10 +31,8 @@ struct LawOf {
     Samples sunlight_w_m2_nm{};
 
     template <class Other>
-        requires std::constructible_from<Other, Optics>
-    operator LawOf<Other>() const {
-        return {shape, optics, sunlight_w_m2_nm};
-    }
+    requires std::constructible_from<Other, Optics>
+    operator LawOf<Other>() const { return {shape, optics, sunlight_w_m2_nm}; }
 };
 
 using AirLaw = LawOf<std::function<AirOptics(double wavelength_nm)>>;
