@@ -29,7 +29,7 @@ constexpr std::array<double, 15> kCircles_rad{-0.5, -0.2, -0.06, -0.01, 0.0, 0.0
 
 // Of the largest error, what a profile may plan for: the profiles miss the worst places, which lie between
 // them.
-constexpr double kPlannedShare = 0.4;
+constexpr double kPlannedShare = 0.5;
 
 constexpr double kWidestRow_rad = 0.14;
 constexpr double kWidestColumn_rad = 0.18;
