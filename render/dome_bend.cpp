@@ -23,13 +23,13 @@ constexpr double kFinest_rad = 0.001;
 constexpr double kFinestPath_rad = 0.005;
 
 // Azimuths of the meridians, from each source; elevations of the circles above the horizon.
-constexpr std::array<double, 7> kMeridians_rad{0.0, 0.1, 0.3, 0.7, 1.2, 2.0, kPi};
-constexpr std::array<double, 13> kCircles_rad{-0.5, -0.2, -0.06, -0.01, 0.0, 0.006, 0.02,
-                                              0.04, 0.08, 0.16,  0.3,   0.5, 0.8};
+constexpr std::array<double, 10> kMeridians_rad{0.0, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.2, kPi};
+constexpr std::array<double, 15> kCircles_rad{-0.5, -0.2, -0.06, -0.01, 0.0, 0.006, 0.02, 0.04,
+                                              0.08, 0.16, 0.27,  0.4,   0.6, 0.85,  1.15};
 
 // Of the largest error, what a profile may plan for: the profiles miss the worst places, which lie between
 // them.
-constexpr double kPlannedShare = 0.35;
+constexpr double kPlannedShare = 0.5;
 
 constexpr double kWidestRow_rad = 0.14;
 constexpr double kWidestColumn_rad = 0.18;

@@ -27,7 +27,7 @@ class LightTables {
     static constexpr int kRowsAFrame = 10;
     static constexpr int kSeaRowsAFrame = 4;
     /// Air that changes in every frame is asked for once in so many.
-    static constexpr std::uint64_t kAirIntervalFrames = 90;
+    static constexpr std::uint64_t kAirIntervalFrames = 120;
 
     /// \param size  of the direction tables
     explicit LightTables(const sky::SkyViewSize& size = {});

@@ -32,7 +32,12 @@ class Frames {
     explicit Frames(const Quality& quality = {}) : frame_(DisplaySettings{}, quality) {}
     const SkyFrame& of(Scene scene) {
         scene.time_s = time_s_ += 100.0;
-        for (int i = 0; i < 2 * static_cast<int>(LightTables::kAirLatencyFrames) + Dome::kLongestFade; ++i)
+        // New air takes its time, all else is a jump.
+        const bool new_air = visibility_m_ > 0.0 && scene.air.visibility_m != visibility_m_;
+        visibility_m_ = scene.air.visibility_m;
+        const int frames =
+            new_air ? 2 * static_cast<int>(LightTables::kAirLatencyFrames) + Dome::kLongestFade : 1;
+        for (int i = 0; i < frames; ++i)
             frame_.prepare(scene, kPixel_rad);
         return frame_;
     }
@@ -40,6 +45,7 @@ class Frames {
   private:
     SkyFrame frame_;
     double time_s_ = 0.0;
+    double visibility_m_ = 0.0;
 };
 
 TEST(Dome, CoversEveryDirectionWhateverTheHorizon) {
