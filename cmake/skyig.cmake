@@ -23,7 +23,8 @@ endif()
 # costs to compile. Off in script/check-all's clang build, so that sources stay complete on their own.
 option(SKYIG_PCH "Precompile the headers that all tests include" ON)
 function(skyig_test_headers TARGET)
-  if(NOT SKYIG_PCH)
+  # A precompiled header serves one level of optimisation.
+  if(NOT SKYIG_PCH OR NOT "${SKYIG_TEST_OPTIMISATION}" STREQUAL "${SKYIG_USUAL_TEST_OPTIMISATION}")
     return()
   endif()
   if(NOT TARGET skyig_test_pch)
@@ -47,12 +48,14 @@ function(skyig_library NAME)
   target_link_libraries(${NAME} PUBLIC glm::glm ${ARG_DEPS} PRIVATE skyig_build ${ARG_PRIVATE_DEPS})
 endfunction()
 
-# What is tested is optimised, the tests' own code hardly: that is two thirds of what it costs to compile.
+# What is tested is optimised, the tests' own code hardly: that is two thirds of what it costs to compile. Folders
+# whose tests compute much themselves set SKYIG_TEST_OPTIMISATION to -O1 under the sanitizers too.
 if(SKYIG_SANITIZE)
   set(SKYIG_TEST_OPTIMISATION -O0)
 elseif(CMAKE_BUILD_TYPE STREQUAL "Release")
   set(SKYIG_TEST_OPTIMISATION -O1)
 endif()
+set(SKYIG_USUAL_TEST_OPTIMISATION ${SKYIG_TEST_OPTIMISATION})
 
 # skyig_test(NAME SOURCES a.cpp ... DEPS target ... [LABELS unit|gl|slow|net] [TIMEOUT s])
 # Every test program finds its data under SKYIG_TEST_DATA and what this clone may lack under
@@ -61,6 +64,9 @@ function(skyig_test NAME)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPS;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
+  endif()
+  if("slow" IN_LIST ARG_LABELS AND NOT SKYIG_SLOW_TESTS)
+    return()
   endif()
   if(NOT ARG_TIMEOUT)
     # Ends a test that hangs; far above what the slowest takes under a sanitizer on a busy machine.

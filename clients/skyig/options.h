@@ -173,6 +173,8 @@ struct SkyOptions {
     /// Of render::kSkyModelNames, already checked; empty = the one that the atmosphere's file names, else
     /// multi.
     std::string model;
+    /// Asks the reference solver instead of a model.
+    bool truth = false;
     /// "A", "B" or a file.
     std::string atmosphere = "B";
     /// "-" = standard input.

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 
 #include "clients/skyig/sky/model_solver.h"
+#include "clients/skyig/sky/truth_solver.h"
 #include "clients/table_streams.h"
 
 namespace skyig::clients {
@@ -21,14 +23,15 @@ int solve(const SkyOptions& options) {
         atmosphere.sky.model = static_cast<render::SkyModel>(at - render::kSkyModelNames.begin());
     }
     TableStreams streams(options.cases_path, options.out_path, "--out");
-    sky::ModelSolver solver(atmosphere);
+    const auto solver = options.truth ? std::unique_ptr<sky::Solver>(new sky::TruthSolver(atmosphere.law))
+                                      : std::make_unique<sky::ModelSolver>(atmosphere);
     const sky::CaseCount count = sky::run_cases(
         streams.input(), streams.input_name(), [&]() -> std::ostream& { return streams.open_output(); },
-        std::cerr, solver);
+        std::cerr, *solver);
     streams.finish();
     if (streams.to_file()) {
         fmt::print("{}  {} rows, {} bad, {} tables of {}\n", options.out_path, count.rows, count.bad_rows,
-                   count.tables, render::name_of(atmosphere.sky.model));
+                   count.tables, options.truth ? "the truth" : render::name_of(atmosphere.sky.model));
     }
     return count.bad_rows == 0 ? 0 : 1;
 }

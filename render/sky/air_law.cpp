@@ -90,7 +90,14 @@ AirLaw atmosphere_b_law() {
     return {table_shape(0.8), optics, kSolarPoints};
 }
 
-AirLaw air_law(const Air& air) {
+AirOptics SceneOptics::operator()(double nm) const noexcept {
+    constexpr double kSingleScatteringAlbedo = 0.94;  // continental background
+    const double extinction = aerosol_per_m * std::pow(nm / 550.0, -angstrom_exponent);
+    return {molecules_per_m * rayleigh_depth(nm), extinction, kSingleScatteringAlbedo * extinction,
+            sample_at(kOzonePeak, nm), bare_land_albedo(nm)};
+}
+
+LawOf<SceneOptics> air_law(const Air& air) noexcept {
     const Air defaults;
     const double visibility_m =
         std::clamp(finite_or(air.visibility_m, defaults.visibility_m), kMinVisibilityM, kMaxVisibilityM);
@@ -109,14 +116,7 @@ AirLaw air_law(const Air& air) {
         constexpr double kHazeVisibilityM = 4000.0;
         shape.aerosol_scale_height_m *= std::min(1.0, visibility_m / kHazeVisibilityM);
     }
-    const double exponent = angstrom_exponent(visibility_m);
-    const auto optics = [per_m, aerosol_per_m, exponent](double nm) {
-        constexpr double kSingleScatteringAlbedo = 0.94;  // continental background
-        const double extinction = aerosol_per_m * std::pow(nm / 550.0, -exponent);
-        return AirOptics{per_m * rayleigh_depth(nm), extinction, kSingleScatteringAlbedo * extinction,
-                         sample_at(kOzonePeak, nm), bare_land_albedo(nm)};
-    };
-    return {shape, optics, kSolarBins};
+    return {shape, {per_m, aerosol_per_m, angstrom_exponent(visibility_m)}, kSolarBins};
 }
 
 AirLaw planet_law(const PlanetAir& planet) {

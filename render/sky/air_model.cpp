@@ -36,7 +36,8 @@ Spectrum sunlight_row(const Samples& solar, const Samples& observer) {
     return row;
 }
 
-AirModel sampled(const AirLaw& law) {
+template <class Law>
+AirModel sampled(const Law& law) {
     AirModel model;
     static_cast<AirShape&>(model) = law.shape;
     for (std::size_t i = 0; i < kWavelengths; ++i) {

@@ -54,8 +54,10 @@ double fresnel_reflectance(double cosine) noexcept {
 
 SlopeVariance slope_variance(const Ground& ground, std::span<const Wave> waves) noexcept {
     const double wind_m_s = std::clamp(finite_or_zero(ground.wind_m_s), 0.0, 25.0);
-    const double along = 0.00316 * wind_m_s;
-    const double across = 0.003 + 0.00192 * wind_m_s;
+    // A breeze too light for the two lines to tell apart has no direction.
+    const double half = 0.5 * (0.003 + 0.00508 * wind_m_s);
+    const double along = std::max(0.00316 * wind_m_s, half);
+    const double across = std::min(0.003 + 0.00192 * wind_m_s, half);
     const auto lay = [](double first, double second, double azimuth_rad) {
         const double e = std::sin(azimuth_rad);
         const double n = std::cos(azimuth_rad);

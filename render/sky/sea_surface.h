@@ -20,17 +20,18 @@ inline constexpr double kSeaIndex = 1.34;
 
 /// Mean products of the slopes towards east and north.
 struct SlopeVariance {
-    double east_east = 0.003;
-    double north_north = 0.003;
+    double east_east = 0.0015;
+    double north_north = 0.0015;
     double east_north = 0.0;
 
     [[nodiscard]] double total() const noexcept { return east_east + north_north; }
 };
 
 /// Wind: clean surface of Cox and Munk, J. Opt. Soc. Am. 44 (1954) 838: 0.00316 W along it, 0.003 + 0.00192 W
-/// across, W in m/s at 12.5 m, here 0..25 (measured to 14; what is not finite counts as 0). Waves: a train of
-/// height H (trough to crest) and length L is a sine of small slope (Airy 1845): (pi H / L)^2 / 2 along its
-/// way, H / L at most 0.142 (Michell 1893: then it breaks).
+/// across, and half their sum each way below the wind where the lines cross (2.4 m/s); W in m/s at 12.5 m,
+/// here 0..25 (measured to 14; what is not finite counts as 0). Waves: a train of height H (trough to crest)
+/// and length L is a sine of small slope (Airy 1845): (pi H / L)^2 / 2 along its way, H / L at most 0.142
+/// (Michell 1893: then it breaks).
 [[nodiscard]] SlopeVariance slope_variance(const Ground& ground, std::span<const Wave> waves) noexcept;
 
 /// Slopes are Gaussian (Cox and Munk's skewness and peakedness are left out), hiding and shadowing are

@@ -31,7 +31,7 @@ std::vector<Json> decode(const std::vector<std::string>& frames) {
 }
 
 TEST(DecodeCan, GoldenLogKeyByKey) {
-    const std::string folder = std::string(SKYIG_TEST_DATA) + "/canaerospace/";
+    const std::string folder = SKYIG_TEST_DATA "/canaerospace/";
     const Json golden = Json::parse(std::ifstream(folder + "canaerospace_golden.json"));
     std::ifstream log(folder + "canaerospace_golden.log");
     CanLogDecoder decoder("golden", true);

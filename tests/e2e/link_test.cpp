@@ -69,6 +69,8 @@ TEST_P(LinkTest, FliesSixtyFramesAndIsAnswered) {
     const auto& [version, order] = GetParam();
     Site site;
     Process daemon(daemon_command(site));
+    // It listens by then: no message is sent in vain.
+    ASSERT_TRUE(daemon.wait_for_err("ephemeris"));
     const Finished host = run(host_command(site, version, order, "1"));
     ASSERT_EQ(host.status, 0) << host.err << daemon.err_so_far();
     const Json told = Json::parse(host.out);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "render/sky/air_law.h"
 #include "render/sky/air_model.h"
 #include "render/sky_settings.h"
 
@@ -11,6 +12,8 @@ namespace skyig::clients::sky {
 
 struct Atmosphere {
     render::sky::AirModel air;
+    /// What `air` samples, at any wavelength.
+    render::sky::AirLaw law;
     /// Parameters of the models, from the file's [sky].
     render::SkySettings sky;
 };

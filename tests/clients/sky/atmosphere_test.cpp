@@ -75,6 +75,8 @@ TEST(SkyCommandLine, OptionsArrive) {
     EXPECT_EQ(unknown.exit_status, 2);
     EXPECT_THAT(unknown.error, HasSubstr("windlight"));
     EXPECT_EQ(invoke({"sky"}).exit_status, 2);
+    EXPECT_TRUE(std::get<SkyOptions>(invoke({"sky", "--truth", "--cases", "in.csv"}).options).truth);
+    EXPECT_EQ(invoke({"sky", "--truth", "--model", "multi", "--cases", "in.csv"}).exit_status, 2);
 }
 
 TEST(SkyCommandLine, ShotTakesAModel) {

@@ -14,6 +14,7 @@
 
 #include "clients/csv.h"
 #include "clients/skyig/sky/model_solver.h"
+#include "clients/skyig/sky/truth_solver.h"
 #include "tests/render/sky/truth.h"
 
 namespace skyig::clients::sky {
@@ -113,7 +114,7 @@ TEST(SkyCases, HeadingsThatCannotBeUsedAreRefusedBeforeAnythingIsWritten) {
 
 // The whole way of the verb: file in, look-ups as drawn, columns out.
 TEST(SkyCases, MultiAgreesWithTheTruthTable) {
-    ModelSolver solver({render::sky::atmosphere_b(), {}});
+    ModelSolver solver(load_atmosphere("B"));
     std::ifstream file(SKYIG_TEST_DATA "/sky/air_B_400000m.csv");
     std::stringstream text;
     text << file.rdbuf();
@@ -139,9 +140,28 @@ TEST(SkyCases, MultiAgreesWithTheTruthTable) {
     EXPECT_LT(errors.rms(), 0.01);
 }
 
+TEST(TruthSolver, AgreesWithTheTruthTable) {
+    TruthSolver solver(load_atmosphere("A").law);
+    // Rows of ground_A.csv.
+    const std::string rows =
+        "altitude_m,sun_zenith_deg,view_zenith_deg,rel_azimuth_deg,Y_cd_m2\n"
+        "0,0,0,0,12126\n"
+        "0,0,30,0,3604.2\n";
+    const Outcome made = run(rows, solver);
+    std::istringstream again(made.text);
+    CsvReader reader(again);
+    (void)reader.next();
+    while (const std::optional<CsvRecord> record = reader.next()) {
+        const double truth = *parse_number(record->fields[4]);
+        EXPECT_NEAR(*parse_number(record->fields[5]) / truth, 1.0, 0.01) << record->text;
+    }
+    const Outcome alone = run(rows.substr(0, rows.find("0,0,30")), solver);
+    EXPECT_EQ(made.text.substr(0, alone.text.size()), alone.text) << "a row stands for itself";
+}
+
 TEST(ModelSolver, AnswersEveryAngleWithAFiniteColour) {
     for (std::size_t i = 0; i < render::kSkyModelNames.size(); ++i) {
-        Atmosphere atmosphere{render::sky::atmosphere_b(), {}};
+        Atmosphere atmosphere = load_atmosphere("B");
         atmosphere.sky.model = static_cast<render::SkyModel>(i);
         ModelSolver solver(atmosphere);
         for (const double altitude_m : {0.0, 1e4, 4e5, 1e9}) {

@@ -98,13 +98,13 @@ void check(const std::vector<Stamped>& states, const char* name, std::size_t spa
 }
 
 TEST(RecordedFlight, TwoSecondsOfItMoveAsTheySay) {
-    const auto states = flight(std::string(SKYIG_TEST_DATA) + "/flights/fg_native_fdm_2s.pcap");
+    const auto states = flight(SKYIG_TEST_DATA "/flights/fg_native_fdm_2s.pcap");
     EXPECT_EQ(states.size(), 60U);
     check(states, "2 s", 30, 0.25);
 }
 
 TEST(RecordedFlight, TwentySecondsOfItMoveAsTheySay) {
-    const std::string path = std::string(SKYIG_REFERENCE) + "/flights/fg_native_fdm_20s.pcap";
+    const std::string path = SKYIG_REFERENCE "/flights/fg_native_fdm_20s.pcap";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "the recording of 20 s is not beside this clone";
     const auto states = flight(path);
     EXPECT_EQ(states.size(), 593U);

@@ -19,7 +19,7 @@ DisplaySettings display_of(double white_cd_m2) {
 }
 
 TEST(ToneCurve, HybridMatchesThePublishedFormulasAtEveryRow) {
-    const auto rows = skyig::tests::read_csv(std::string(SKYIG_TEST_DATA) + "/eye/default_operator.csv");
+    const auto rows = skyig::tests::read_csv(SKYIG_TEST_DATA "/eye/default_operator.csv");
     ASSERT_GT(rows.size(), 40U);
     double worst = 0.0;
     for (const auto& row : rows) {

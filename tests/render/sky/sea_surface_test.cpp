@@ -45,6 +45,9 @@ TEST(SeaSurface, SlopesAreThoseOfWindAndWaves) {
     // Cox and Munk's lines for a clean surface, along and across the wind, added.
     for (const double wind : {0.0, 1.0, 5.0, 10.0, 14.0})
         EXPECT_NEAR(slope_variance(windy(wind), {}).total(), 0.003 + 0.00508 * wind, 1e-12) << wind;
+    const SlopeVariance breeze = slope_variance(windy(1.0, 30.0), {});
+    EXPECT_DOUBLE_EQ(breeze.east_east, breeze.north_north) << "the path of a low Sun would turn aside";
+    EXPECT_NEAR(breeze.east_north, 0.0, 1e-15);
     const SlopeVariance north = slope_variance(windy(10.0), {});
     EXPECT_GT(north.north_north, 1.3 * north.east_east);
     const SlopeVariance east = slope_variance(windy(10.0, 90.0), {});

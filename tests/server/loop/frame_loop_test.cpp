@@ -139,10 +139,10 @@ class FrameLoopTest : public ::testing::Test {
 
     FrameLoop& loop(std::uint64_t frames = 0, ImageWriter* images = nullptr, std::uint64_t every = 1) {
         world_ = std::make_unique<world::World>(config_, start_time(config_.start, clock_), log_);
-        loop_ = std::make_unique<FrameLoop>(
-            config_,
-            FrameLoopParts{clock_, log_, pace_, link_, *world_, painter_, images, nullptr, nullptr, status_.get()},
-            frames, every);
+        loop_ = std::make_unique<FrameLoop>(config_,
+                                            FrameLoopParts{clock_, log_, pace_, link_, *world_, painter_,
+                                                           images, nullptr, nullptr, status_.get()},
+                                            frames, every);
         return *loop_;
     }
 
