@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -12,81 +13,44 @@
 #include "render/gl/mesh.h"
 #include "render/gl/program.h"
 #include "render/sky_frame.h"
-#include "render/star_field.h"
+#include "render/star_pass.h"
 
 namespace skyig::render {
 
 namespace {
 
-// Points whose centre lies outside the picture by less than half a footprint still show, also where the
-// frustum's edge spreads the footprint over more pixels.
-constexpr int kStarGuard_px = 16;
-
 // Directions at infinity: z is 0, which no depth range clips; w is the distance along the view axis.
-glm::dmat4 clip_from_view(const Frustum& frustum, double guard_x, double guard_y) {
+glm::dmat4 clip_from_view(const Frustum& frustum) {
     const ImagePlane p = image_plane(frustum);
-    const double width = (p.right - p.left) * guard_x;
-    const double height = (p.top - p.bottom) * guard_y;
+    const double width = p.right - p.left;
+    const double height = p.top - p.bottom;
     return {glm::dvec4{2.0 / width, 0.0, 0.0, 0.0}, glm::dvec4{0.0, 2.0 / height, 0.0, 0.0},
             glm::dvec4{(p.right + p.left) / width, (p.top + p.bottom) / height, 0.0, -1.0}, glm::dvec4{0.0}};
 }
 
-class StarPass {
-  public:
-    StarPass()
-        : program_("night/star.vert", "night/star.frag"),
-          mesh_({3, 3, 3}, field_.capacity()),
-          tone_(program_, false),
-          clip_(program_.uniform("u_clip_from_enu")),
-          view_(program_.uniform("u_view_from_enu")),
-          plane_origin_(program_.uniform("u_plane_origin")),
-          plane_step_(program_.uniform("u_plane_step")),
-          sigma_(program_.uniform("u_sigma_rad")),
-          point_gain_(program_.uniform("u_point_gain")) {}
-
-    void prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light,
-                 const shaders64::ToneParameters& tone, double limit_mag) {
-        field_.update(scene, air, light, tone, limit_mag);
-        const auto stars = field_.stars();
-        mesh_.update({reinterpret_cast<const float*>(stars.data()), stars.size_bytes() / sizeof(float)});
-        const auto tone32 = eye::single_precision(tone);
-        tone_.set(program_, tone32);
-        program_.set(point_gain_, tone32.point_gain * tone32.inv_display_max);
+gl::PixelFormat pixel_format(Target target) {
+    switch (target) {
+        case Target::kLuminance:
+            return gl::PixelFormat::kRgba32F;
+        case Target::kHalfLuminance:
+            return gl::PixelFormat::kRgba16F;
+        case Target::kDisplay:
+            break;
     }
-
-    void draw(const Channel& channel, const ChannelView& view) const {
-        const double width = channel.width_px + 2.0 * kStarGuard_px;
-        const double height = channel.height_px + 2.0 * kStarGuard_px;
-        const ImagePlane p = image_plane(view.frustum);
-        const glm::dvec2 step{(p.right - p.left) / channel.width_px, (p.top - p.bottom) / channel.height_px};
-        program_.use();
-        program_.set(clip_, glm::mat4{clip_from_view(view.frustum, width / channel.width_px,
-                                                     height / channel.height_px) *
-                                      glm::dmat4{view.view_from_enu}});
-        program_.set(view_, glm::mat4{glm::dmat4{view.view_from_enu}});
-        program_.set(plane_origin_, glm::vec2{glm::dvec2{p.left, p.bottom}});
-        program_.set(plane_step_, glm::vec2{step});
-        program_.set(sigma_, static_cast<float>(kStarSigma_px * pixel_angle_rad(channel, view.frustum)));
-        mesh_.draw_points(field_.stars().size());
-    }
-
-    [[nodiscard]] std::size_t count() const { return field_.stars().size(); }
-
-  private:
-    StarField field_;
-    gl::Program program_;
-    gl::Mesh mesh_;
-    ToneUniforms tone_;
-    int clip_, view_, plane_origin_, plane_step_, sigma_, point_gain_;
-};
+    return gl::PixelFormat::kRgba8;
+}
 
 }  // namespace
 
 struct Renderer::Impl {
-    Impl(std::vector<Channel> channel_list, const DisplaySettings& display_settings, const Quality& quality)
-        : channels(std::move(channel_list)), display(display_settings), frame(display_settings, quality) {
+    Impl(std::vector<Channel> channel_list, const DisplaySettings& display_settings, const Quality& quality,
+         Target target)
+        : channels(std::move(channel_list)),
+          display(display_settings),
+          frame(display_settings, quality, target) {
+        display.dither = display.dither && target == Target::kDisplay;
         for (const Channel& channel : channels)
-            targets.emplace_back(channel.width_px, channel.height_px);
+            targets.emplace_back(channel.width_px, channel.height_px, pixel_format(target));
         dome_program.set(dome_program.uniform("u_dither_codes"), display.dither ? 1.0F : 0.0F);
         gl::set_common_state();
     }
@@ -136,7 +100,7 @@ void Renderer::Impl::prepare_points_and_discs() {
     const auto tone32 = eye::single_precision(frame.tone());
     report.stars_drawn = 0;
     if (plan.needs(Pass::kStars)) {
-        stars.prepare(scene, frame.air(), frame.light(), frame.tone(), plan.star_limit_mag);
+        stars.prepare(scene, frame, pixel_rad);
         report.stars_drawn = stars.count();
     }
     if (plan.needs(Pass::kCorona))
@@ -162,12 +126,13 @@ void Renderer::Impl::refresh_deferred() {
                       display.dither);
 }
 
-Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality) {
+Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality,
+                   Target target) {
     if (channels.empty() || channels.size() > kMaxChannels) {
         throw std::runtime_error("a renderer draws 1 to " + std::to_string(kMaxChannels) + " channels, not " +
                                  std::to_string(channels.size()));
     }
-    impl_ = std::make_unique<Impl>(std::move(channels), display, quality);
+    impl_ = std::make_unique<Impl>(std::move(channels), display, quality, target);
 }
 
 Renderer::~Renderer() = default;
@@ -192,7 +157,7 @@ void Renderer::draw(std::size_t channel) {
     const ChannelView& view = m.scene.views[channel];
     if (!has_area(view.frustum)) return;
     const Plan& plan = m.report.plan;
-    const glm::dmat4 clip_from_enu = clip_from_view(view.frustum, 1.0, 1.0) * glm::dmat4{view.view_from_enu};
+    const glm::dmat4 clip_from_enu = clip_from_view(view.frustum) * glm::dmat4{view.view_from_enu};
 
     m.targets[channel].bind();
     gl::set_blend(gl::Blend::kReplace);
@@ -200,9 +165,7 @@ void Renderer::draw(std::size_t channel) {
 
     if (plan.needs(Pass::kStars)) {
         gl::set_blend(gl::Blend::kAdd);
-        m.targets[channel].bind(kStarGuard_px);
-        m.stars.draw(m.channels[channel], view);
-        m.targets[channel].bind();
+        m.stars.draw(m.channels[channel], view, eye::single_precision(m.frame.tone()));
     }
     if (plan.needs(Pass::kCorona)) {
         gl::set_blend(gl::Blend::kAdd);
@@ -232,6 +195,14 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
 
 void Renderer::read_back(std::size_t channel, std::span<std::byte> rgba) {
     if (channel < impl_->targets.size()) impl_->targets[channel].read_rgba8(rgba);
+}
+
+void Renderer::read_luminance(std::size_t channel, std::span<float> rgb_cd_m2) {
+    if (channel >= impl_->targets.size()) return;
+    impl_->targets[channel].read_rgb32f(rgb_cd_m2);
+    const auto unit_cd_m2 = static_cast<float>(std::exp2(-impl_->frame.exposure_exponent()));
+    for (float& value : rgb_cd_m2)
+        value *= unit_cd_m2;
 }
 
 std::span<const Channel> Renderer::channels() const noexcept {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "render/eye/exposure.h"
 #include "render/eye/tone_curve.h"
 #include "render/star_field.h"
 
@@ -26,10 +27,16 @@ bool scale_moved(const glm::vec3& a, const glm::vec3& b) {
     return glm::any(glm::greaterThan(glm::abs(a - b), kLightStep * glm::max(a, b)));
 }
 
+// What a target of luminance asks of the dome: the finest there is.
+constexpr Quality kFinest{.error_codes = 0.0, .forced = {}};
+
 }  // namespace
 
-SkyFrame::SkyFrame(const DisplaySettings& display, const Quality& quality)
-    : display_(display), quality_(quality), tables_(direction_table_size(quality)) {}
+SkyFrame::SkyFrame(const DisplaySettings& display, const Quality& quality, Target target)
+    : display_(display),
+      quality_(quality),
+      target_(target),
+      tables_(direction_table_size(quality)) {}
 
 void SkyFrame::prepare(const Scene& scene, double pixel_rad) {
     const sky::RefractionRow refraction = tables_.refraction(scene);
@@ -54,8 +61,15 @@ void SkyFrame::adapt(const Scene& scene, double pixel_rad) {
     }
     const double now_cd_m2 =
         adaptation_.update(eye::adaptation_target_cd_m2(luminance), scene.time_s, tables_.jumped(), display_);
-    tone_ = eye::tone_parameters(display_, now_cd_m2);
-    plan_stars(plan_, scene, darkest_sky, half_code_mag(darkest_sky, tone_, pixel_rad));
+    display_tone_ = eye::tone_parameters(display_, now_cd_m2);
+    exposure_exponent_ = eye::exposure_exponent(target_, now_cd_m2);
+    tone_ =
+        target_ == Target::kDisplay ? display_tone_ : eye::luminance_parameters(exposure_exponent_);
+    if (target_ == Target::kDisplay) {
+        plan_stars(plan_, scene, darkest_sky, half_code_mag(darkest_sky, display_tone_, pixel_rad));
+    } else {
+        plan_all_stars(plan_, scene);
+    }
 }
 
 void SkyFrame::refresh_dome(double pixel_rad) {
@@ -74,8 +88,9 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         std::abs(adaptation - shaded_.adaptation_cd_m2) > kAdaptationStep * shaded_.adaptation_cd_m2;
     mesh_azimuth_rad_ = wanted.azimuth_rad;
     if (lay) {
-        bend_.measure(light_, tone_, mesh_azimuth_rad_, pixel_rad);
-        dome_.lay_out(wanted, bend_, plan_dome(bend_, at_once ? DomeBend::kLeast : dome_.size(), quality_));
+        bend_.measure(light_, display_tone_, mesh_azimuth_rad_, pixel_rad);
+        dome_.lay_out(wanted, bend_, plan_dome(bend_, at_once ? DomeBend::kLeast : dome_.size(),
+                                              target_ == Target::kDisplay ? quality_ : kFinest));
     }
     if (replaced || scaled) {
         const auto change = at_once    ? Dome::Change::kAtOnce

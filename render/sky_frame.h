@@ -10,12 +10,15 @@
 #include "render/plan.h"
 #include "render/scene.h"
 #include "render/sky_light.h"
+#include "render/target.h"
 
 namespace skyig::render {
 
 class SkyFrame {
   public:
-    SkyFrame(const DisplaySettings& display, const Quality& quality);
+    /// \param target  a target of luminance has the finest dome and all stars; the display still decides
+    /// where the dome's nodes lie
+    SkyFrame(const DisplaySettings& display, const Quality& quality, Target target = Target::kDisplay);
 
     /// \param pixel_rad  angle of the finest pixel of the rig: edges are softened over it. Allocates nothing
     /// in steady state. The first call builds all tables and may throw std::bad_alloc; later ones do not
@@ -25,7 +28,10 @@ class SkyFrame {
     // All of this is the prepared frame's.
     [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
     [[nodiscard]] const SkyLight& light() const noexcept { return light_; }
+    /// What turns light into the target's values.
     [[nodiscard]] const shaders64::ToneParameters& tone() const noexcept { return tone_; }
+    /// k of what a target of luminance holds, light times 2^k. \see eye::exposure_exponent()
+    [[nodiscard]] int exposure_exponent() const noexcept { return exposure_exponent_; }
     [[nodiscard]] double adaptation_cd_m2() const noexcept { return adaptation_.luminance_cd_m2(); }
     [[nodiscard]] const sky::AirTables& air() const noexcept { return tables_.air(); }
     [[nodiscard]] const LightTables& tables() const noexcept { return tables_; }
@@ -50,6 +56,7 @@ class SkyFrame {
 
     DisplaySettings display_;
     Quality quality_;
+    Target target_;
     LightTables tables_;
     eye::Adaptation adaptation_;
     DomeBend bend_;
@@ -58,6 +65,8 @@ class SkyFrame {
     Plan plan_;
     SkyLight light_;
     shaders64::ToneParameters tone_{};
+    shaders64::ToneParameters display_tone_{};
+    int exposure_exponent_ = 0;
     double mesh_azimuth_rad_ = 0.0;
     double dome_error_codes_ = 0.0;
     std::uint64_t triangles_revision_ = 0;

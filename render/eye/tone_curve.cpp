@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/eye/point_threshold.h"
+
 namespace skyig::render::eye {
 
 namespace {
@@ -73,12 +75,15 @@ double highlight_room(double adaptation_cd_m2) noexcept {
 }
 
 double point_gain(const DisplaySettings& display, double adaptation_cd_m2) noexcept {
+    // Chosen by looking, and so that on either display a star at the threshold changes some code at 60 deg of
+    // 1280 pixels.
+    constexpr double kAboveThreshold = 4.0;
     const double adaptation = std::max(adaptation_cd_m2, kDarkest_cd_m2);
-    const double display_term = 1.219 + std::pow(0.5 * display.max_luminance_cd_m2, 0.4);
-    const double ward = std::pow(display_term / (1.219 + std::pow(adaptation, 0.4)), 2.5);
     const ToneCurve curve = tone_curve(display, adaptation);
-    const double field = std::pow(10.0, curve.p + (curve.q - 1.0) * std::log10(adaptation));
-    return display.tone == ToneOperator::kLinear ? field : std::sqrt(ward * field);
+    if (display.tone == ToneOperator::kLinear) return std::pow(10.0, curve.p);
+    const double log_field = curve.p - highlight_room(adaptation) + curve.q * std::log10(adaptation);
+    const double field = std::min(std::pow(10.0, log_field), display.max_luminance_cd_m2);
+    return kAboveThreshold * threshold_lux(field) / threshold_lux(adaptation);
 }
 
 shaders64::ToneParameters tone_parameters(const DisplaySettings& display, double adaptation_cd_m2) noexcept {

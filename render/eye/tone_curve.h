@@ -17,9 +17,9 @@ struct ToneCurve {
 /// 18 % of white.
 [[nodiscard]] ToneCurve tone_curve(const DisplaySettings& display, double adaptation_cd_m2) noexcept;
 
-/// Gain of point sources, display cd/m2 per world cd/m2: between that of a field adapted to itself, which by
-/// night shows every star of the fourth magnitude as white, and Ward's (1994), which leaves the sixth below a
-/// display code: their geometric mean, chosen by looking.
+/// Gain of point sources, display cd/m2 per world cd/m2: what makes a star at the threshold before the scene's
+/// adaptation luminance stand four times above the threshold before that luminance as it is displayed
+/// (threshold_lux() of both). kLinear: that of the field.
 [[nodiscard]] double point_gain(const DisplaySettings& display, double adaptation_cd_m2) noexcept;
 
 /// log10 of the room that is left on the display for what is brighter than the log-average of the scene: by

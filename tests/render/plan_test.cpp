@@ -73,7 +73,7 @@ TEST(Plan, StarsGoBecauseTheSkyIsBrightNotBecauseTheSunIsUp) {
     EXPECT_FALSE(plan.needs(Pass::kStars));
     plan_stars(plan, scene, 2e-4, kNone_mag);  // the same Sun, seen from above the air
     EXPECT_TRUE(plan.needs(Pass::kStars));
-    EXPECT_GT(plan.star_limit_mag, 7.5);
+    EXPECT_GT(plan.stars.limit_mag, 6.5);
 }
 
 TEST(Plan, PlanetsCountAsStarsForTheDecision) {

@@ -8,8 +8,11 @@ struct ToneParameters {
     real photopic;           // 0 rods only .. 1 cones only, from the adaptation luminance
     real point_gain;         // display luminance per world luminance of point sources
     real inv_display_max;    // 1 / luminance of full white, m2/cd
-    real encode_power;       // 0: sRGB curve, else 1 / gamma
+    real encode_power;       // 0: sRGB curve, > 0: 1 / gamma, < 0: luminance itself (see stores_luminance())
 };
+
+// Targets of luminance hold linear Rec.709 times 2^log2_gain: no eye, no display (render/eye/exposure.h).
+SKYIG_INLINE bool stores_luminance(ToneParameters tone) { return tone.encode_power < real(0.0); }
 
 SKYIG_INLINE real luminance_709(rvec3 rgb) { return real(0.2126) * rgb.x + real(0.7152) * rgb.y + real(0.0722) * rgb.z; }
 
@@ -44,6 +47,7 @@ SKYIG_INLINE rvec3 night_coloured(rvec3 rgb, real photopic) {
 
 // World linear Rec.709, cd/m2 -> display linear, 1 = full white, not clipped.
 SKYIG_INLINE rvec3 display_linear(rvec3 rgb_cd_m2, ToneParameters tone) {
+    if (stores_luminance(tone)) return rgb_cd_m2 * exp2(tone.log2_gain);
     real luminance = luminance_709(rgb_cd_m2);
     if (!(luminance > real(1e-12))) return rvec3(real(0.0));
     if (luminance > real(1e12)) luminance = real(1e12);
@@ -67,6 +71,7 @@ SKYIG_INLINE rvec3 highlights(rvec3 display) {
 
 // Display linear -> display code in 0..1.
 SKYIG_INLINE rvec3 encoded(rvec3 display, ToneParameters tone) {
+    if (stores_luminance(tone)) return min(display, rvec3(real(65504.0)));
     rvec3 v = clamp(highlights(display), rvec3(real(0.0)), rvec3(real(1.0)));
     if (tone.encode_power > real(0.0)) return pow(v, rvec3(tone.encode_power));
     rvec3 low = v * real(12.92);
