@@ -75,15 +75,17 @@ double highlight_room(double adaptation_cd_m2) noexcept {
 }
 
 double point_gain(const DisplaySettings& display, double adaptation_cd_m2) noexcept {
-    // Chosen by looking, and so that on either display a star at the threshold changes some code at 60 deg of
-    // 1280 pixels.
-    constexpr double kAboveThreshold = 4.0;
+    // Chosen by looking: eyes before a display are not as dark-adapted, nor its codes as fine, as the
+    // threshold by night supposes.
+    constexpr double kNightAbove = 30.0;
+    constexpr double kDayAbove = 4.0;
     const double adaptation = std::max(adaptation_cd_m2, kDarkest_cd_m2);
     const ToneCurve curve = tone_curve(display, adaptation);
     if (display.tone == ToneOperator::kLinear) return std::pow(10.0, curve.p);
     const double log_field = curve.p - highlight_room(adaptation) + curve.q * std::log10(adaptation);
     const double field = std::min(std::pow(10.0, log_field), display.max_luminance_cd_m2);
-    return kAboveThreshold * threshold_lux(field) / threshold_lux(adaptation);
+    const double above = kNightAbove * std::pow(kDayAbove / kNightAbove, shaders64::photopic_share(adaptation));
+    return above * threshold_lux(field) / threshold_lux(adaptation);
 }
 
 shaders64::ToneParameters tone_parameters(const DisplaySettings& display, double adaptation_cd_m2) noexcept {

@@ -18,8 +18,8 @@ struct ToneCurve {
 [[nodiscard]] ToneCurve tone_curve(const DisplaySettings& display, double adaptation_cd_m2) noexcept;
 
 /// Gain of point sources, display cd/m2 per world cd/m2: what makes a star at the threshold before the scene's
-/// adaptation luminance stand four times above the threshold before that luminance as it is displayed
-/// (threshold_lux() of both). kLinear: that of the field.
+/// adaptation luminance stand 30 times by night, by day 4 times above the threshold before that luminance as it
+/// is displayed (threshold_lux() of both). kLinear: that of the field.
 [[nodiscard]] double point_gain(const DisplaySettings& display, double adaptation_cd_m2) noexcept;
 
 /// log10 of the room that is left on the display for what is brighter than the log-average of the scene: by
