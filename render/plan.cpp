@@ -18,8 +18,8 @@ constexpr double kDegree = glm::radians(1.0);
 constexpr double kBrightestStar_mag = -1.46;
 // Planets below this stand under the horizon wherever a cockpit may be; from higher up they only cost a pass.
 constexpr double kLowestPlanet_sine = -0.1;
-// A star is seen in part down to 0.9 of the threshold.
-constexpr double kStarMargin_mag = 0.12;
+// A star is seen in part down to 0.94 of the threshold.
+constexpr double kStarMargin_mag = 0.07;
 // Three standard deviations of the light of a star on the horizon at sea level, and what thins them.
 constexpr double kStrongestFlicker = 1.5;
 constexpr double kFlickerHeight_m = 8e3;

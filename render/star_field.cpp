@@ -70,7 +70,7 @@ double half_code_mag(double background_cd_m2, const shaders64::ToneParameters& t
 
 float seen_share(float illuminance_lux, float background_cd_m2) noexcept {
     const auto threshold = static_cast<float>(eye::threshold_lux(static_cast<double>(background_cd_m2)));
-    const float t = std::clamp((illuminance_lux / threshold - 0.9F) * 5.0F, 0.0F, 1.0F);
+    const float t = std::clamp((illuminance_lux / threshold - 0.94F) / 0.12F, 0.0F, 1.0F);
     return t * t * (3.0F - 2.0F * t);
 }
 

@@ -30,7 +30,7 @@ inline constexpr double kStarSigma_px = 0.7;
 [[nodiscard]] double half_code_mag(double background_cd_m2, const shaders64::ToneParameters& tone,
                                    double pixel_rad) noexcept;
 
-/// Part of a point that the eye sees: 0 below 0.9 of the threshold before its background, 1 above 1.1.
+/// Part of a point that the eye sees: 0 below 0.94 of the threshold before its background, 1 above 1.06.
 [[nodiscard]] float seen_share(float illuminance_lux, float background_cd_m2) noexcept;
 
 class StarField {
