@@ -79,9 +79,12 @@ class Dome {
     void look_up(const SkyLight& light, double azimuth_rad, Change change);
     /// Colours the vertices.
     void encode(const shaders64::ToneParameters& tone);
-    /// Cuts each quad along the diagonal that is closer to the light in its middle. Precondition: encode()
-    /// with the same light. \return the largest error in the middle of a quad, display codes
-    double split_quads(const SkyLight& light, double azimuth_rad, const shaders64::ToneParameters& tone);
+    /// Leaves out columns where a patch of the dome can do without, and cuts each quad along the diagonal
+    /// that is closer to the light in its middle. Precondition: encode() with the same light. \param
+    /// error_codes largest error that the picture may have \return the largest error in the middle of a quad,
+    /// display codes
+    double triangulate(const SkyLight& light, double azimuth_rad, const shaders64::ToneParameters& tone,
+                       double error_codes);
     /// One frame further in the fade. To be called once a frame.
     void step() noexcept;
 
@@ -113,6 +116,17 @@ class Dome {
     void encode_one(const std::vector<glm::vec3>& light, const shaders32::ToneParameters& tone,
                     glm::vec3 DomeVertex::*out);
     [[nodiscard]] glm::vec3 bend_at(std::size_t row, std::size_t column) const noexcept;
+    [[nodiscard]] float thinning_error(std::size_t row, std::size_t column, std::size_t columns,
+                                       std::size_t step) const noexcept;
+    [[nodiscard]] float thinning_error(const DomePatches::Quad& corner, std::uint32_t rows,
+                                       std::uint32_t columns) const noexcept;
+    /// What is missed in the middle of a quad by cutting it along each diagonal, of 1.
+    struct DiagonalErrors {
+        float rising = 0.0F;
+        float falling = 0.0F;
+    };
+    [[nodiscard]] DiagonalErrors diagonal_errors(const DomePatches::Quad& quad,
+                                                 const glm::vec3& middle) const noexcept;
     void begin_fade() noexcept;
 
     DomeLayout layout_;
@@ -126,7 +140,6 @@ class Dome {
     std::vector<glm::vec3> from_;  // linear Rec.709, cd/m2
     std::vector<glm::vec3> to_;
     std::vector<glm::vec3> codes_;  // of `to_`, before they are moved to balance the error
-    std::vector<std::uint8_t> rising_;
     DomePatches patches_;
     double share_ = 1.0;
     double fade_step_ = 1.0;

@@ -93,7 +93,7 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         ++vertices_revision_;
     }
     if (lay) {
-        dome_error_codes_ = dome_.split_quads(light_, mesh_azimuth_rad_, tone_);
+        dome_error_codes_ = dome_.triangulate(light_, mesh_azimuth_rad_, tone_, quality_.error_codes);
         ++triangles_revision_;
     }
     dome_.step();
