@@ -13,6 +13,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+// Of the error that the picture may have, what columns that are left out may add.
+constexpr double kThinningShare = 0.4;
+
 // Where a value lies among rising nodes: the lower one and the share of the next.
 struct Place {
     std::size_t low = 0;
@@ -96,7 +99,6 @@ Dome::Dome(std::size_t screens)
         vertices.reserve(kMaxVertices);
     for (auto* each : {&directions_, &from_, &to_, &codes_})
         each->reserve(kMaxVertices);
-    rising_.reserve(kMaxVertices);
 }
 
 // The two rows at the horizon stand where its softness ends, one quad apart.
@@ -268,28 +270,87 @@ void Dome::encode(std::span<const shaders64::ToneParameters> tones) {
     }
 }
 
-double Dome::split_quads(const SkyLight& light, double azimuth_rad, const shaders64::ToneParameters& tone) {
-    const auto tone32 = eye::single_precision(tone);
-    rising_.assign(static_cast<std::size_t>(size_.rows()) * static_cast<std::size_t>(size_.columns), 0);
+// What is missed at the vertices of one row that a wider step leaves out, of 1. Between two kept ones the
+// triangle's edge is a great circle: away from the level it runs nearer to the pole than the row.
+float Dome::thinning_error(std::size_t row, std::size_t column, std::size_t columns,
+                           std::size_t step) const noexcept {
+    const double elevation = layout_.horizon_elevation_rad + rows_[row].above_horizon_rad;
+    const std::size_t last = rows_.size() - 1;
+    const std::size_t beside =
+        elevation > 0.0 ? std::min(row + 1, last) : row - std::min<std::size_t>(row, 1);
+    const double apart = rows_[beside].above_horizon_rad - rows_[row].above_horizon_rad;
+    const double leaves = 0.5 * std::sin(elevation) * std::cos(elevation);
+    const glm::vec3* codes = &codes_[row * stride()];
+    const glm::vec3* poleward = &codes_[beside * stride()];
     float largest = 0.0F;
-    std::size_t quad = 0;
-    for (std::size_t row = 0; row + 1 < rows_.size(); ++row) {
-        const Row& low = rows_[row];
-        const Row& high = rows_[row + 1];
-        const double elevation =
-            light.horizon_elevation_rad + 0.5 * (low.above_horizon_rad + high.above_horizon_rad);
-        const glm::vec3* code = &codes_[row * stride()];
-        for (std::size_t column = 0; column + 1 < stride(); ++column, ++quad, ++code) {
-            if (low.side != high.side) continue;
-            const double azimuth = azimuth_rad + 0.5 * (azimuths_rad_[column] + azimuths_rad_[column + 1]);
-            const glm::vec3 middle = shaders32::shown(light.rgb_cd_m2(elevation, azimuth, low.side), tone32);
-            const float falling = largest_of(glm::abs(0.5F * (code[1] + code[stride()]) - middle));
-            const float rising = largest_of(glm::abs(0.5F * (code[0] + code[stride() + 1]) - middle));
-            rising_[quad] = rising < falling ? 1 : 0;
-            largest = std::max(largest, std::min(rising, falling));
+    for (std::size_t left = column; left < column + columns; left += step) {
+        const std::size_t right = left + step;
+        for (std::size_t at = left + 1; at < right; ++at) {
+            const double before = azimuths_rad_[at] - azimuths_rad_[left];
+            const double after = azimuths_rad_[right] - azimuths_rad_[at];
+            const auto share = static_cast<float>(before / (before + after));
+            const auto risen = apart != 0.0 ? static_cast<float>(leaves * before * after / apart) : 0.0F;
+            const glm::vec3 wanted = codes[at] + risen * (poleward[at] - codes[at]);
+            largest =
+                std::max(largest, largest_of(glm::abs(glm::mix(codes[left], codes[right], share) - wanted)));
         }
     }
-    patches_.split(rising_);
+    return largest;
+}
+
+float Dome::thinning_error(const DomePatches::Quad& corner, std::uint32_t rows,
+                           std::uint32_t columns) const noexcept {
+    float largest = 0.0F;
+    for (std::size_t row = corner.row; row <= corner.row + rows; ++row)
+        largest = std::max(largest, thinning_error(row, corner.column, columns, corner.step));
+    for (std::uint32_t row = corner.row; row < corner.row + rows; ++row) {
+        if (rows_[row].side != rows_[row + 1].side) continue;
+        for (std::uint32_t column = corner.column; column < corner.column + columns; column += corner.step) {
+            const std::size_t middle = row * stride() + column + corner.step / 2;
+            const DiagonalErrors missed = diagonal_errors(
+                {row, column, corner.step}, 0.5F * (codes_[middle] + codes_[middle + stride()]));
+            largest = std::max(largest, std::min(missed.rising, missed.falling));
+        }
+    }
+    return largest;
+}
+
+Dome::DiagonalErrors Dome::diagonal_errors(const DomePatches::Quad& quad,
+                                           const glm::vec3& middle) const noexcept {
+    const glm::vec3* low = &codes_[quad.row * stride() + quad.column];
+    const glm::vec3* high = low + stride();
+    return {largest_of(glm::abs(0.5F * (low[0] + high[quad.step]) - middle)),
+            largest_of(glm::abs(0.5F * (low[quad.step] + high[0]) - middle))};
+}
+
+double Dome::triangulate(const SkyLight& light, double azimuth_rad, const shaders64::ToneParameters& tone,
+                         double error_codes) {
+    const auto tone32 = eye::single_precision(tone);
+    const auto most_missed = static_cast<float>(kThinningShare * error_codes / 255.0);
+    float largest = 0.0F;
+    const auto may_thin = [&](const DomePatches::Quad& corner, std::uint32_t rows, std::uint32_t columns) {
+        return thinning_error(corner, rows, columns) < most_missed;
+    };
+    const auto rising = [&](const DomePatches::Quad& quad) {
+        const Row& low = rows_[quad.row];
+        const Row& high = rows_[quad.row + 1];
+        if (low.side != high.side) return false;
+        if (quad.step > 1) {
+            const std::size_t middle = quad.row * stride() + quad.column + quad.step / 2;
+            const DiagonalErrors wide =
+                diagonal_errors(quad, 0.5F * (codes_[middle] + codes_[middle + stride()]));
+            return wide.rising < wide.falling;
+        }
+        const double elevation =
+            light.horizon_elevation_rad + 0.5 * (low.above_horizon_rad + high.above_horizon_rad);
+        const double azimuth =
+            azimuth_rad + 0.5 * (azimuths_rad_[quad.column] + azimuths_rad_[quad.column + 1]);
+        const DiagonalErrors missed =
+            diagonal_errors(quad, shaders32::shown(light.rgb_cd_m2(elevation, azimuth, low.side), tone32));
+        largest = std::max(largest, std::min(missed.rising, missed.falling));
+        return missed.rising < missed.falling;
+    };
+    patches_.triangulate(may_thin, rising);
     return 0.5 * 255.0 * static_cast<double>(largest);
 }
 

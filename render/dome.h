@@ -81,10 +81,12 @@ class Dome {
     /// Colours the vertices. \param tones  one for each screen
     void encode(std::span<const shaders64::ToneParameters> tones);
     void encode(const shaders64::ToneParameters& tone) { encode(std::span{&tone, 1}); }
-    /// Cuts each quad along the diagonal that is closer to the light in its middle, on the first screen,
-    /// whose tone is given: the others show the same bends. Precondition: encode() with the same light.
-    /// \return the largest error in the middle of a quad, display codes of that screen
-    double split_quads(const SkyLight& light, double azimuth_rad, const shaders64::ToneParameters& tone);
+    /// Leaves out columns where a patch of the dome can do without, and cuts each quad along the diagonal
+    /// that is closer to the light in its middle: on the first screen, whose tone is given, for the others
+    /// show the same bends. Precondition: encode() with the same light. \param error_codes  largest error
+    /// that the picture may have \return the largest error in the middle of a quad, display codes
+    double triangulate(const SkyLight& light, double azimuth_rad, const shaders64::ToneParameters& tone,
+                       double error_codes);
     /// One frame further in the fade. To be called once a frame.
     void step() noexcept;
 
@@ -118,6 +120,17 @@ class Dome {
     void encode_one(const std::vector<glm::vec3>& light, const shaders32::ToneParameters& tone,
                     std::vector<DomeVertex>& vertices, glm::vec3 DomeVertex::*out);
     [[nodiscard]] glm::vec3 bend_at(std::size_t row, std::size_t column) const noexcept;
+    [[nodiscard]] float thinning_error(std::size_t row, std::size_t column, std::size_t columns,
+                                       std::size_t step) const noexcept;
+    [[nodiscard]] float thinning_error(const DomePatches::Quad& corner, std::uint32_t rows,
+                                       std::uint32_t columns) const noexcept;
+    /// What is missed in the middle of a quad by cutting it along each diagonal, of 1.
+    struct DiagonalErrors {
+        float rising = 0.0F;
+        float falling = 0.0F;
+    };
+    [[nodiscard]] DiagonalErrors diagonal_errors(const DomePatches::Quad& quad,
+                                                 const glm::vec3& middle) const noexcept;
     void begin_fade() noexcept;
 
     DomeLayout layout_;
@@ -130,9 +143,8 @@ class Dome {
     std::vector<glm::vec3> directions_;
     std::vector<glm::vec3> from_;  // linear Rec.709, cd/m2
     std::vector<glm::vec3> to_;
-    std::vector<glm::vec3>
-        codes_;  // of `to_` on the first screen, before they are moved to balance the error
-    std::vector<std::uint8_t> rising_;
+    /// Of `to_` on the first screen, before they are moved to balance the error.
+    std::vector<glm::vec3> codes_;
     DomePatches patches_;
     double share_ = 1.0;
     double fade_step_ = 1.0;

@@ -146,7 +146,8 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         ++vertices_revision_;
     }
     if (lay) {
-        dome_error_codes_ = dome_.split_quads(light_, mesh_azimuth_rad_, tones_[0]);
+        dome_error_codes_ =
+            dome_.triangulate(light_, mesh_azimuth_rad_, tones_.front(), quality_.error_codes);
         ++triangles_revision_;
     }
     dome_.step();
