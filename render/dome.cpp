@@ -87,14 +87,16 @@ bool still_fits(const DomeLayout& held, const DomeLayout& wanted) noexcept {
            std::abs(held.adaptation_cd_m2 - wanted.adaptation_cd_m2) < 0.1 * held.adaptation_cd_m2;
 }
 
-Dome::Dome()
-    : patches_(static_cast<std::uint32_t>(DomeBend::kMost.rows()),
+Dome::Dome(std::size_t screens)
+    : vertices_(screens),
+      patches_(static_cast<std::uint32_t>(DomeBend::kMost.rows()),
                static_cast<std::uint32_t>(DomeBend::kMost.columns)) {
     for (auto* rows : {&rows_, &old_rows_})
         rows->reserve(static_cast<std::size_t>(DomeBend::kMost.rows() + 1));
     for (auto* columns : {&azimuths_rad_, &old_azimuths_rad_})
         columns->reserve(static_cast<std::size_t>(DomeBend::kMost.columns + 1));
-    vertices_.reserve(kMaxVertices);
+    for (auto& vertices : vertices_)
+        vertices.reserve(kMaxVertices);
     for (auto* each : {&directions_, &from_, &to_, &codes_})
         each->reserve(kMaxVertices);
 }
@@ -128,7 +130,8 @@ void Dome::lay_out(const DomeLayout& layout, const DomeBend& bend, const DomeSiz
     size_ = size;
     place_rows(bend);
     const std::size_t count = rows_.size() * stride();
-    vertices_.resize(count);
+    for (auto& vertices : vertices_)
+        vertices.resize(count);
     directions_.resize(count);
     from_.resize(count);
     const double horizon = layout_.horizon_elevation_rad;
@@ -136,7 +139,8 @@ void Dome::lay_out(const DomeLayout& layout, const DomeBend& bend, const DomeSiz
     for (const Row& row : rows_) {
         for (const double azimuth : azimuths_rad_) {
             directions_[out] = glm::vec3{direction_of({horizon + row.above_horizon_rad, azimuth})};
-            vertices_[out].direction = directions_[out];
+            for (auto& vertices : vertices_)
+                vertices[out].direction = directions_[out];
             ++out;
         }
     }
@@ -153,9 +157,11 @@ void Dome::lay_out(const DomeLayout& layout, const DomeBend& bend, const DomeSiz
 void Dome::settle_mix() noexcept {
     if (share_ >= 1.0) return;
     const auto share = static_cast<float>(share_);
-    for (std::size_t i = 0; i < to_.size(); ++i) {
+    for (std::size_t i = 0; i < to_.size(); ++i)
         to_[i] = glm::mix(from_[i], to_[i], share);
-        vertices_[i].to = glm::mix(vertices_[i].from, vertices_[i].to, share);
+    for (auto& vertices : vertices_) {
+        for (DomeVertex& vertex : vertices)
+            vertex.to = glm::mix(vertex.from, vertex.to, share);
     }
     share_ = 1.0;
 }
@@ -231,31 +237,37 @@ glm::vec3 Dome::bend_at(std::size_t row, std::size_t column) const noexcept {
 // Between vertices of a curved colour interpolation errs to one side; vertices moved half of that to the
 // other halve the largest error.
 void Dome::encode_one(const std::vector<glm::vec3>& light, const shaders32::ToneParameters& tone,
-                      glm::vec3 DomeVertex::*out) {
+                      std::vector<DomeVertex>& vertices, glm::vec3 DomeVertex::*out) {
     for (std::size_t i = 0; i < light.size(); ++i)
         codes_[i] = shaders32::shown(light[i], tone);
     std::size_t i = 0;
     for (std::size_t row = 0; row < rows_.size(); ++row) {
         for (std::size_t column = 0; column < stride(); ++column, ++i)
-            vertices_[i].*out = glm::clamp(codes_[i] - 0.5F * bend_at(row, column), 0.0F, 1.0F);
+            vertices[i].*out = glm::clamp(codes_[i] - 0.5F * bend_at(row, column), 0.0F, 1.0F);
     }
 }
 
-void Dome::encode(const shaders64::ToneParameters& tone) {
-    const auto tone32 = eye::single_precision(tone);
-    if (replaced_ && !laid_) {
-        // What is on the screen now.
-        for (DomeVertex& vertex : vertices_)
-            vertex.from = vertex.to;
-    } else if (share_ < 1.0) {
-        encode_one(from_, tone32, &DomeVertex::from);
+void Dome::encode(std::span<const shaders64::ToneParameters> tones) {
+    // The first screen comes last: its codes stay for split_quads().
+    for (std::size_t screen = vertices_.size(); screen-- > 0;) {
+        const auto tone32 = eye::single_precision(tones[screen]);
+        std::vector<DomeVertex>& vertices = vertices_[screen];
+        if (replaced_ && !laid_) {
+            // What is on the screen now.
+            for (DomeVertex& vertex : vertices)
+                vertex.from = vertex.to;
+        } else if (share_ < 1.0) {
+            encode_one(from_, tone32, vertices, &DomeVertex::from);
+        }
+        encode_one(to_, tone32, vertices, &DomeVertex::to);
     }
-    encode_one(to_, tone32, &DomeVertex::to);
     if (replaced_) begin_fade();
     replaced_ = laid_ = false;
     if (share_ < 1.0) return;
-    for (DomeVertex& vertex : vertices_)
-        vertex.from = vertex.to;
+    for (auto& vertices : vertices_) {
+        for (DomeVertex& vertex : vertices)
+            vertex.from = vertex.to;
+    }
 }
 
 // What is missed at the vertices of one row that a wider step leaves out, of 1. Between two kept ones the
@@ -344,8 +356,10 @@ double Dome::triangulate(const SkyLight& light, double azimuth_rad, const shader
 
 void Dome::begin_fade() noexcept {
     float largest = 0.0F;
-    for (const DomeVertex& vertex : vertices_)
-        largest = std::max(largest, largest_of(glm::abs(vertex.to - vertex.from)));
+    for (const auto& vertices : vertices_) {
+        for (const DomeVertex& vertex : vertices)
+            largest = std::max(largest, largest_of(glm::abs(vertex.to - vertex.from)));
+    }
     const double frames = std::ceil(255.0 * static_cast<double>(largest) / kFadeStep_codes);
     fade_step_ = 1.0 / std::clamp(frames, 1.0, static_cast<double>(kLongestFade));
 }
