@@ -194,12 +194,12 @@ void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double 
     const double limit_mag = faintest_visible_mag(background_cd_m2) + kStarMargin_mag;
     const bool forced = plan.forced[static_cast<std::size_t>(Pass::kStars)];
     const bool outshone = limit_mag < brightest_mag || half_code_mag < brightest_mag;
-    const double flicker = kStrongestFlicker * std::exp(-std::max(scene.eye.height_m, 0.0) / kFlickerHeight_m);
+    const double flicker =
+        kStrongestFlicker * std::exp(-std::max(scene.eye.height_m, 0.0) / kFlickerHeight_m);
     plan.stars.limit_mag = forced ? kNoStarIsFainter_mag : limit_mag;
     plan.stars.seen_only = !forced;
     plan.stars.twinkle_limit_mag = half_code_mag + 2.5 * std::log10(std::max(flicker, 1e-9));
-    plan.stars.twinkle =
-        scene.sky.star_scintillation && brightest_mag < plan.stars.twinkle_limit_mag;
+    plan.stars.twinkle = scene.sky.star_scintillation && brightest_mag < plan.stars.twinkle_limit_mag;
     if (!scene.stars.enabled || scene.stars.intensity <= 0.0) {
         put(plan, Pass::kStars, {false, "switched off"});
     } else if (outshone) {

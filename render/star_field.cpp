@@ -153,7 +153,7 @@ void StarField::tabulate_air(const SkyFrame& frame, double eye_height_m) {
         const double level = std::max(std::cos(elevation_rad), 1e-4);
         const double rms = night::scintillation_rms(night::air_mass(seen_rad), eye_height_m);
         air_[i] = {glm::vec3{frame.air().transmittance_rgb(light.eye_height_m,
-                                                          light.straight_elevation_rad(seen_rad))},
+                                                           light.straight_elevation_rad(seen_rad))},
                    static_cast<float>((seen_rad - elevation_rad) / level), static_cast<float>(rms)};
     }
 }
@@ -177,8 +177,7 @@ void StarField::add(const glm::vec3& direction_enu, const Light& source, const F
     const glm::vec3 behind = frame.light.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kSky);
     glm::vec3 lux = source.illuminance_lux * air.transmittance * frame.intensity;
     if (frame.seen_only) {
-        const float share =
-            seen_share(shaders32::luminance_709(lux), shaders32::luminance_709(behind));
+        const float share = seen_share(shaders32::luminance_709(lux), shaders32::luminance_709(behind));
         if (!(share > 0.0F)) return;
         lux *= share;
     }
@@ -191,12 +190,9 @@ void StarField::rebuild(const Scene& scene, const SkyFrame& frame) {
     tabulate_air(frame, scene.eye.height_m);
     const double moon_chord = scene.moon.enabled ? 2.0 * std::sin(0.5 * scene.moon.angular_radius_rad) : 0.0;
     const double lowest_sine = std::sin(frame.light().refraction.setting_elevation_rad());
-    const Frame now{frame.light(),
-                    static_cast<float>(lowest_sine),
-                    static_cast<float>(scene.stars.intensity),
-                    plan.seen_only,
-                    glm::vec3{scene.moon.direction_enu},
-                    static_cast<float>(moon_chord)};
+    const Frame now{
+        frame.light(),  static_cast<float>(lowest_sine),     static_cast<float>(scene.stars.intensity),
+        plan.seen_only, glm::vec3{scene.moon.direction_enu}, static_cast<float>(moon_chord)};
     const auto twinkle = [&](double magnitude, double factor) {
         return plan.twinkle && magnitude < plan.twinkle_limit_mag ? static_cast<float>(factor) : 0.0F;
     };

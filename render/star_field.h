@@ -17,9 +17,9 @@ namespace skyig::render {
 
 /// As the vertex shader night/star.vert takes it.
 struct StarVertex {
-    glm::vec3 direction_enu;      ///< as it is seen, when the stars were last turned
-    glm::vec3 illuminance_lux;    ///< linear Rec.709, behind the air, of what the eye sees of it
-    glm::vec3 background_cd_m2;   ///< linear Rec.709, of the sky behind the star
+    glm::vec3 direction_enu;     ///< as it is seen, when the stars were last turned
+    glm::vec3 illuminance_lux;   ///< linear Rec.709, behind the air, of what the eye sees of it
+    glm::vec3 background_cd_m2;  ///< linear Rec.709, of the sky behind the star
 };
 
 /// Standard deviation of a star's footprint in pixels, along both axes of every channel.
@@ -39,12 +39,11 @@ class StarField {
     StarField();
 
     /// Follows the frame. Light, air and refraction of every star are worked out anew only when something has
-    /// changed by what could show: the sky by 0.5 %, directions by a tenth of a pixel (until then one rotation
-    /// serves all stars: enu_from_update()), the eye's height by 20 m. Annual aberration of stars: direction +
-    /// velocity / c, normalised (second order neglected: 0.001 arcsec). Refraction is interpolated: within 3
-    /// arcsec of the frame's row up to FL600.
-    /// \param pixel_rad  the finest pixel of the rig
-    /// \return whether stars() has changed
+    /// changed by what could show: the sky by 0.5 %, directions by a tenth of a pixel (until then one
+    /// rotation serves all stars: enu_from_update()), the eye's height by 20 m. Annual aberration of stars:
+    /// direction + velocity / c, normalised (second order neglected: 0.001 arcsec). Refraction is
+    /// interpolated: within 3 arcsec of the frame's row up to FL600. \param pixel_rad  the finest pixel of
+    /// the rig \return whether stars() has changed
     bool update(const Scene& scene, const SkyFrame& frame, double pixel_rad);
 
     [[nodiscard]] std::span<const StarVertex> stars() const noexcept { return {stars_.data(), count_}; }

@@ -20,7 +20,8 @@ shaders64::ToneParameters luminance_parameters(int exposure_exponent) noexcept {
     tone.photopic = 1.0;
     tone.point_gain = std::exp2(exposure_exponent);
     tone.inv_display_max = 1.0;
-    tone.encode_power = -1.0;
+    tone.shoulder = 1.0;
+    tone.encode_power = -2.0;
     return tone;
 }
 

@@ -16,10 +16,9 @@ struct LightPicture {
     std::vector<float> rgb;
 
     [[nodiscard]] glm::dvec3 at(int x, int y) const {
-        const float* p =
-            &rgb[(static_cast<std::size_t>(y) * static_cast<std::size_t>(channel.width_px) +
-                  static_cast<std::size_t>(x)) *
-                 3];
+        const float* p = &rgb[(static_cast<std::size_t>(y) * static_cast<std::size_t>(channel.width_px) +
+                               static_cast<std::size_t>(x)) *
+                              3];
         return {p[0], p[1], p[2]};
     }
     [[nodiscard]] glm::dvec3 view_direction_at(int x, int y) const {
@@ -60,7 +59,9 @@ inline std::vector<LightPicture> draw_light(const std::vector<Channel>& channels
 inline glm::dvec3 added_lux(const LightPicture& with, const LightPicture& without, const glm::dvec2& point_px,
                             int reach_px = 6) {
     glm::dvec3 sum{0.0};
-    const auto first = [&](double at_px) { return std::max(0, static_cast<int>(std::floor(at_px)) - reach_px); };
+    const auto first = [&](double at_px) {
+        return std::max(0, static_cast<int>(std::floor(at_px)) - reach_px);
+    };
     const auto end = [&](double at_px, int size) {
         return std::min(size, static_cast<int>(std::floor(at_px)) + reach_px + 1);
     };

@@ -73,15 +73,14 @@ TEST_F(Luminance, ToneOfItIsWhatIsShownWithinACode) {
                     const glm::dvec3 here = light[c].at(x, y);
                     const glm::dvec3 code = 255.0 * shaders64::shown(here, tone);
                     const Rgb drawn = shown[c].at(x, y);
-                    worst = std::max(
-                        worst, largest(glm::abs(code - glm::dvec3{drawn.r, drawn.g, drawn.b})));
+                    worst = std::max(worst, largest(glm::abs(code - glm::dvec3{drawn.r, drawn.g, drawn.b})));
                     brightest_cd_m2 = std::max(brightest_cd_m2, largest(here));
                     ++compared;
                 }
             }
         }
-        std::printf("%-6s up to %.3g cd/m2: %.2f codes over %d pixels\n", name.c_str(), brightest_cd_m2, worst,
-                    compared);
+        std::printf("%-6s up to %.3g cd/m2: %.2f codes over %d pixels\n", name.c_str(), brightest_cd_m2,
+                    worst, compared);
         EXPECT_GT(brightest_cd_m2, name == "noon" ? 1e9 : 1e3) << "the body is not in the picture";
         // Half a code is the rounding to 8 bits.
         EXPECT_LE(worst, 1.5) << name;

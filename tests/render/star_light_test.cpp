@@ -1,5 +1,5 @@
-// The light of stars as the luminance target has it: a star's pixels add up to its illuminance, and the eye sees
-// as many as tables say.
+// The light of stars as the luminance target has it: a star's pixels add up to its illuminance, and the eye
+// sees as many as tables say.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,8 +85,7 @@ TEST_F(StarLight, OfAStarsPixelsIsItsIlluminance) {
                                        std::pair{w - 9.0, h - 9.0}, std::pair{0.3 * w, h - 8.0}}) {
                 Scene scene = night();
                 scene.view_count = 1;
-                scene.views[0] =
-                    towards_planet(channel, frustum, x + offset(random), y + offset(random));
+                scene.views[0] = towards_planet(channel, frustum, x + offset(random), y + offset(random));
                 const glm::dvec3 ratio = drawn_lux(renderer, scene) / truth;
                 for (int i = 0; i < 3; ++i)
                     largest = std::max(largest, std::abs(ratio[i] - 1.0));
@@ -123,9 +122,10 @@ TEST_F(StarLight, IsNotLostOnTheSeamOfTwoChannels) {
         Scene scene = night();
         scene.view_count = 2;
         scene.views[0] = towards_planet(channels[0], frustum, 320.0 + beyond_px, 100.3);
-        scene.views[1] = {frustum, glm::dmat3{glm::dvec3{0.5, 0.0, -std::sqrt(0.75)}, glm::dvec3{0.0, 1.0, 0.0},
-                                              glm::dvec3{std::sqrt(0.75), 0.0, 0.5}} *
-                                       scene.views[0].view_from_enu};
+        scene.views[1] = {frustum,
+                          glm::dmat3{glm::dvec3{0.5, 0.0, -std::sqrt(0.75)}, glm::dvec3{0.0, 1.0, 0.0},
+                                     glm::dvec3{std::sqrt(0.75), 0.0, 0.5}} *
+                              scene.views[0].view_from_enu};
         const double ratio = drawn_lux(renderer, scene).y / truth;
         std::printf("%.1f px beyond the seam: %.4f of the star's in both\n", beyond_px, ratio);
         EXPECT_NEAR(ratio, 1.0, 0.01) << beyond_px;
@@ -262,8 +262,8 @@ class LimitingMagnitude : public StarLight {
             const glm::dvec3 lux = added_lux(with[0], without[0], point, 3);
             const double mag =
                 -2.5 * std::log10(shaders64::luminance_709(lux) / night::star_illuminance_lux(0.0));
-            const double background = shaders64::luminance_709(
-                without[0].at(static_cast<int>(point.x), static_cast<int>(point.y)));
+            const double background =
+                shaders64::luminance_709(without[0].at(static_cast<int>(point.x), static_cast<int>(point.y)));
             const double limit_mag = table_limit_mag(table, background);
             const bool is_seen = mag < limit_mag;
             (is_seen ? seen_mags : unseen_mags).push_back(mag);
@@ -277,8 +277,7 @@ class LimitingMagnitude : public StarLight {
         // Half of the stars about the limit are seen.
         const auto last = seen_mags.size() - 1 - seen_mags.size() / 20;
         counts.limit_mag = 0.5 * (seen_mags[last] + unseen_mags[unseen_mags.size() / 20]);
-        counts.table_mag =
-            table_sum / static_cast<double>(seen_mags.size() + unseen_mags.size());
+        counts.table_mag = table_sum / static_cast<double>(seen_mags.size() + unseen_mags.size());
         return counts;
     }
 };
@@ -292,8 +291,9 @@ TEST_F(LimitingMagnitude, IsTheTablesAndDisplaysShowTheSameStars) {
         add_view(scene, symmetric_frustum(30.0, channel.width_px, channel.height_px),
                  view_from_enu(180.0, 50.0, 0.0));
         const Counts counts = count(scene, channel, table);
-        std::printf("sun %5.1f: limit %.2f, table %.2f; stars seen by eye %d, shown on 100 cd/m2 %d, on 350 %d\n",
-                    sun_deg, counts.limit_mag, counts.table_mag, counts.by_eye, counts.on_100, counts.on_350);
+        std::printf(
+            "sun %5.1f: limit %.2f, table %.2f; stars seen by eye %d, shown on 100 cd/m2 %d, on 350 %d\n",
+            sun_deg, counts.limit_mag, counts.table_mag, counts.by_eye, counts.on_100, counts.on_350);
         EXPECT_NEAR(counts.limit_mag, counts.table_mag, 0.4);
         const double slack = 0.1 * counts.by_eye + 1.0;
         EXPECT_NEAR(counts.on_100, counts.by_eye, slack);
