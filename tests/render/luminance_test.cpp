@@ -65,8 +65,8 @@ TEST_F(Luminance, ToneOfItIsWhatIsShownWithinACode) {
         int compared = 0;
         for (std::size_t c = 0; c < channels.size(); ++c) {
             const double pixel_rad = pixel_angle_rad(channels[c], scene.views[c].frustum);
-            for (int y = 0; y < kHeight; ++y) {
-                for (int x = 0; x < kWidth; ++x) {
+            for (int y = 0; y < kHeight; y += 2) {
+                for (int x = y / 2 % 3; x < kWidth; x += 3) {
                     const glm::dvec3 direction =
                         glm::transpose(scene.views[c].view_from_enu) * light[c].view_direction_at(x, y);
                     if (on_an_edge(scene, direction, pixel_rad)) continue;
@@ -134,7 +134,7 @@ std::vector<Extreme> extremes() {
     add_view(dark, symmetric_frustum(40.0, kWidth, kHeight), view_from_enu(180.0, 0.0, 3.0));
     Scene moonlit = make_scene(-50.0, 0.0, 40.0, 180.0, 0.0);
     moonlit.ground.albedo = 0.002;
-    add_view(moonlit, symmetric_frustum(40.0, kWidth, kHeight), view_from_enu(180.0, 25.0, 3.0));
+    add_view(moonlit, symmetric_frustum(10.0, kWidth, kHeight), view_from_enu(180.0, 40.0, 3.0));
     Scene sun = make_scene(50.0, 180.0, -40.0, 90.0, 3000.0);
     add_view(sun, symmetric_frustum(2.0, kWidth, kHeight), view_from_enu(180.0, 50.0, 3.0));
     Scene glaring = make_scene(50.0, 180.0, -40.0, 90.0, 0.0);
@@ -142,7 +142,7 @@ std::vector<Extreme> extremes() {
     glaring.sky.cie.zenith_luminance_cd_m2 = 1e9;
     add_view(glaring, symmetric_frustum(40.0, kWidth, kHeight), view_from_enu(0.0, 30.0, 3.0));
     return {{"moonless", dark, 2e-6, 1e-4},
-            {"full Moon", moonlit, 1e-4, 1e3},
+            {"full Moon", moonlit, 0.1, 1e3},
             {"Sun", sun, 3e3, 1e9},
             {"1e9 sky", glaring, 1e5, 1e9}};
 }
@@ -158,8 +158,8 @@ TEST_F(Luminance, OfScenesFromAMillionthToABillionFitsHalfFloatsWithoutBands) {
         double least = 1e30, most = 0.0, worst_pct = 0.0, worst_codes = 0.0;
         // Where half floats have to be exact; darker parts show nothing.
         const double deepest = renderer.prepare(extreme.scene).adaptation_cd_m2 / 500.0;
-        for (int y = 0; y < kHeight; ++y) {
-            for (int x = 0; x < kWidth; ++x) {
+        for (int y = 0; y < kHeight; y += 2) {
+            for (int x = y / 2 % 3; x < kWidth; x += 3) {
                 const glm::dvec3 exact = whole.at(x, y);
                 const glm::dvec3 stored = half.at(x, y);
                 ASSERT_TRUE(std::isfinite(stored.x + stored.y + stored.z)) << extreme.name;

@@ -74,15 +74,15 @@ TEST_F(StarLight, OfAStarsPixelsIsItsIlluminance) {
     struct Size {
         int width_px, height_px;
     };
-    for (const Size size : {Size{640, 512}, Size{3840, 240}}) {
+    for (const Size size : {Size{640, 512}, Size{3840, 128}, Size{16384, 32}}) {
         const Channel channel{"c", size.width_px, size.height_px};
         Renderer renderer({channel}, {}, {}, Target::kLuminance);
         for (const double fov_deg : {10.0, 60.0, 120.0, 170.0}) {
             const Frustum frustum = symmetric_frustum(0.5 * fov_deg, size.width_px, size.height_px);
             const double w = size.width_px, h = size.height_px;
             double largest = 0.0;
-            for (const auto& [x, y] : {std::pair{0.5 * w, 0.5 * h}, std::pair{8.0, 9.0},
-                                       std::pair{w - 9.0, h - 9.0}, std::pair{0.3 * w, h - 8.0}}) {
+            for (const auto& [x, y] :
+                 {std::pair{0.5 * w, 0.5 * h}, std::pair{8.0, 9.0}, std::pair{w - 9.0, h - 9.0}}) {
                 Scene scene = night();
                 scene.view_count = 1;
                 scene.views[0] = towards_planet(channel, frustum, x + offset(random), y + offset(random));
@@ -155,10 +155,10 @@ TEST_F(StarLight, FlickersAlikeInAllChannelsAndInReplayAndKeepsItsMean) {
     scene.view_count = 2;
     scene.views[0] = towards_planet(channels[0], symmetric_frustum(5.0, 48, 48), 20.3, 30.1);
     scene.views[1] = towards_planet(channels[1], symmetric_frustum(9.0, 64, 64), 40.0, 30.6);
-    constexpr int kFrames = 60;
+    constexpr int kFrames = 30;
     const double truth = planet_lux().y;
     std::vector<double> lux;
-    for (const int frames : {kFrames, 10}) {
+    for (const int frames : {kFrames, 5}) {
         Renderer renderer(channels, {}, {}, Target::kLuminance);
         for (int i = 0; i < frames; ++i) {
             scene.time_s = i / 30.0;
