@@ -59,6 +59,9 @@ class Dome {
     /// frames.
     static constexpr double kFadeStep_codes = 0.125;
     static constexpr int kLongestFade = 60;
+    /// Where replacements follow one another fast, a fade takes twice the frames since the last one, but not
+    /// less than this: what is shown keeps up with a day in a hurry.
+    static constexpr int kHurriedFade = 12;
     static constexpr std::size_t kMaxVertices =
         static_cast<std::size_t>(DomeBend::kMost.sky_rows + DomeBend::kMost.ground_rows + 2) *
         static_cast<std::size_t>(DomeBend::kMost.columns + 1);
@@ -148,6 +151,7 @@ class Dome {
     DomePatches patches_;
     double share_ = 1.0;
     double fade_step_ = 1.0;
+    int frames_since_replaced_ = kLongestFade;
     bool replaced_ = false;  // by the last look_up()
     bool laid_ = false;      // anew, and not encoded since
 };
