@@ -11,6 +11,7 @@
 #include "render/gl/framebuffer.h"
 #include "render/gl/mesh.h"
 #include "render/gl/program.h"
+#include "render/sea_pass.h"
 #include "render/sky_frame.h"
 #include "render/star_field.h"
 
@@ -107,6 +108,7 @@ struct Renderer::Impl {
     gl::Mesh dome_mesh{{3, 3, 3}, Dome::kMaxVertices};
     std::uint64_t triangles_revision = 0;
     std::uint64_t vertices_revision = 0;
+    SeaPass sea;
     StarPass stars;
     Corona corona;
     SunDisc sun_disc;
@@ -153,8 +155,10 @@ void Renderer::Impl::draw_dome(const Channel& channel, const glm::dmat4& clip_fr
     dome_program.set(dome_clip, glm::mat4{clip_from_mesh});
     dome_program.set(dome_half_size, 0.5F * glm::vec2{channel.width_px, channel.height_px});
     dome_program.set(dome_share, static_cast<float>(frame.dome().share()));
-    for (const IndexRange& range : frame.dome().visible(clip_from_mesh))
+    const auto sea_rows = static_cast<std::uint32_t>(frame.sea_rows());
+    for (const IndexRange& range : frame.dome().visible(clip_from_mesh, {.first = sea_rows}))
         dome_mesh.draw_triangles(range.first, range.count);
+    if (sea_rows > 0) sea.draw(channel, clip_from_mesh, frame.dome().visible(clip_from_mesh, {.end = sea_rows}));
 }
 
 void Renderer::Impl::refresh_deferred() {
@@ -178,6 +182,7 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     m.pixel_rad = finest_pixel_rad(m.channels, scene.channel_views());
     m.frame.prepare(scene, m.pixel_rad);
     m.upload_dome();
+    if (m.frame.sea_rows() > 0) m.sea.prepare(m.frame, m.display.dither);
     m.prepare_points_and_discs();
     if (m.deferred) m.refresh_deferred();
     m.report.plan = m.frame.plan();

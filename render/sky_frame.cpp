@@ -38,6 +38,7 @@ void SkyFrame::prepare(const Scene& scene, double pixel_rad) {
     light_ = tables_.light(scene, plan_, refraction);
     adapt(scene, pixel_rad);
     refresh_dome(pixel_rad);
+    refresh_sea(scene, pixel_rad);
     tell_dome();
 }
 
@@ -82,6 +83,7 @@ void SkyFrame::refresh_dome(double pixel_rad) {
                             : replaced ? Dome::Change::kReplaced
                                        : Dome::Change::kScaled;
         dome_.look_up(light_, mesh_azimuth_rad_, change);
+        ++light_revision_;
         shaded_.tables = tables_.revision();
         shaded_.sun_scale = light_.sun.scale_xyz;
         shaded_.moon_scale = light_.moon.scale_xyz;
@@ -99,6 +101,31 @@ void SkyFrame::refresh_dome(double pixel_rad) {
     dome_.step();
 }
 
+void SkyFrame::refresh_sea(const Scene& scene, double pixel_rad) {
+    const bool lit = light_.sea != nullptr && (light_.sun.sea != nullptr || light_.moon.sea != nullptr);
+    waves_ = sky::sea_waves(scene, pixel_rad);
+    plan_waves(plan_, scene, waves_, lit);
+    const double height_m = sky::height_above_sea_m(scene);
+    const int rows = plan_.needs(Pass::kWaves) ? SeaMesh::rows(dome_, waves_, height_m, pixel_rad) : 0;
+    const sky::SlopeVariance variance = sky::slope_variance(scene.ground, scene.sea.all_waves());
+    sea_shading_ = {height_m, 0.5 / (kEarthRadius_m * height_m), pixel_rad,
+                    direction_of(light_.glittering().source),
+                    {variance.east_east + sky::kLeastVariance, variance.north_north + sky::kLeastVariance,
+                     variance.east_north}};
+    const bool laid = rows > 0 && (rows != sea_rows_ || sea_light_seen_ != light_revision_);
+    if (laid) {
+        sea_.lay_out(dome_, light_, mesh_azimuth_rad_, rows);
+        sea_light_seen_ = light_revision_;
+    } else if (rows > 0 && sea_colours_seen_ != vertices_revision_) {
+        sea_.colour(dome_);
+    }
+    if (laid || (rows > 0 && sea_colours_seen_ != vertices_revision_)) ++sea_revision_;
+    if (rows > 0) sea_colours_seen_ = vertices_revision_;
+    sea_rows_ = rows;
+    PlannedPass& planned = plan_.passes[static_cast<std::size_t>(Pass::kWaves)];
+    planned.resolution = {rows, rows > 0 ? dome_.size().columns : 0};
+}
+
 void SkyFrame::tell_dome() noexcept {
     PlannedPass& planned = plan_.passes[static_cast<std::size_t>(Pass::kDome)];
     planned.resolution = {dome_.size().rows(), dome_.size().columns};
@@ -107,8 +134,25 @@ void SkyFrame::tell_dome() noexcept {
 
 glm::dvec3 SkyFrame::exact_colour(const glm::dvec3& direction_enu) const {
     const Horizontal at = horizontal_of(direction_enu);
-    const glm::vec3 rgb = light_.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation);
-    return shaders64::shown(glm::dvec3{rgb}, tone_);
+    const glm::dvec3 rgb{light_.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation)};
+    const bool sea = sea_rows_ > 0 && at.elevation_rad < light_.horizon_elevation_rad;
+    return shaders64::shown(sea ? wave_light(direction_enu, rgb) : rgb, tone_);
+}
+
+glm::dvec3 SkyFrame::wave_light(const glm::dvec3& direction_enu, const glm::dvec3& mean_cd_m2) const {
+    const SeaShading& sea = sea_shading_;
+    const glm::dvec2 at_m = shaders64::sea_point_m(direction_enu, sea.height_m, sea.curvature_m2);
+    const double footprint_m = shaders64::footprint_m(at_m, sea.height_m, sea.pixel_rad);
+    shaders64::ResolvedSlope slope{};
+    for (const shaders64::WaveTrain& train : waves_.all())
+        slope = shaders64::with_train(slope, train, at_m, footprint_m);
+    const Horizontal at = horizontal_of(direction_enu);
+    const SlopeLight slopes = light_.of_slopes(at.elevation_rad, at.azimuth_rad);
+    const glm::dvec3 bend =
+        glm::dvec3{slopes.bend_cd_m2} / std::max(shaders64::luminance_709(mean_cd_m2), 1e-12);
+    const glm::dvec3 to_eye = glm::normalize(glm::dvec3{-at_m, sea.height_m});
+    return shaders64::wave_lit({mean_cd_m2, slopes.east, slopes.north, bend, slopes.glitter}, slope,
+                               shaders64::mirroring_slope(to_eye, sea.source_enu), sea.variance);
 }
 
 }  // namespace skyig::render

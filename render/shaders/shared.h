@@ -19,6 +19,7 @@ using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, 
 #include "render/shaders/sky/aerial.glsl"
 #include "render/shaders/sky/cie.glsl"
 #include "render/shaders/sky/preetham.glsl"
+#include "render/shaders/sky/sea.glsl"
 #include "render/shaders/sky/windlight.glsl"
 }  // namespace skyig::render::shaders32
 
@@ -34,6 +35,7 @@ using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, 
 #include "render/shaders/sky/aerial.glsl"
 #include "render/shaders/sky/cie.glsl"
 #include "render/shaders/sky/preetham.glsl"
+#include "render/shaders/sky/sea.glsl"
 #include "render/shaders/sky/windlight.glsl"
 }  // namespace skyig::render::shaders64
 

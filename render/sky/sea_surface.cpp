@@ -52,6 +52,12 @@ double fresnel_reflectance(double cosine) noexcept {
     return 0.5 * (across * across + along * along);
 }
 
+double wave_slope(const Wave& wave) noexcept {
+    constexpr double kBreaks = 0.142;
+    return wave.length_m > 0.0 ? kPi * std::clamp(finite_or_zero(wave.height_m / wave.length_m), 0.0, kBreaks)
+                               : 0.0;
+}
+
 SlopeVariance slope_variance(const Ground& ground, std::span<const Wave> waves) noexcept {
     const double wind_m_s = std::clamp(finite_or_zero(ground.wind_m_s), 0.0, 25.0);
     // A breeze too light for the two lines to tell apart has no direction.
@@ -66,12 +72,8 @@ SlopeVariance slope_variance(const Ground& ground, std::span<const Wave> waves) 
     };
     SlopeVariance sum = lay(along, across, finite_or_zero(ground.wind_from_rad));
     for (const Wave& wave : waves) {
-        constexpr double kBreaks = 0.142;
-        const double steepness = wave.length_m > 0.0
-                                     ? std::clamp(finite_or_zero(wave.height_m / wave.length_m), 0.0, kBreaks)
-                                     : 0.0;
-        const SlopeVariance of_wave =
-            lay(0.5 * kPi * kPi * steepness * steepness, 0.0, finite_or_zero(wave.direction_rad));
+        const double slope = wave_slope(wave);
+        const SlopeVariance of_wave = lay(0.5 * slope * slope, 0.0, finite_or_zero(wave.direction_rad));
         sum.east_east += of_wave.east_east;
         sum.north_north += of_wave.north_north;
         sum.east_north += of_wave.east_north;
@@ -80,10 +82,8 @@ SlopeVariance slope_variance(const Ground& ground, std::span<const Wave> waves) 
 }
 
 SeaSurface::SeaSurface(const SlopeVariance& variance) noexcept : variance_(variance) {
-    // Without wind the sea is smooth along it: a slope of 1 deg always is left.
-    constexpr double kLeast = 3e-4;
-    variance_.east_east += kLeast;
-    variance_.north_north += kLeast;
+    variance_.east_east += kLeastVariance;
+    variance_.north_north += kLeastVariance;
     determinant_ = variance_.east_east * variance_.north_north - variance_.east_north * variance_.east_north;
     for (std::size_t k = 0; k < kNodes; ++k) {
         const double root = static_cast<double>(k) / (kNodes - 1);
@@ -92,41 +92,48 @@ SeaSurface::SeaSurface(const SlopeVariance& variance) noexcept : variance_(varia
     }
 }
 
-double SeaSurface::glitter_per_sr(double view_up, double view_azimuth_rad,
-                                  const glm::dvec3& source) const noexcept {
+SeaSurface::Mirror SeaSurface::mirror(double view_up, double view_azimuth_rad,
+                                      const glm::dvec3& source) const noexcept {
     const double up = std::clamp(view_up, 0.0, 1.0);
     const double source_up = std::max(source.z, 1e-5);
     const double view_level = std::sqrt((1.0 - up) * (1.0 + up));
     const double sum_up = std::max(up + source_up, 1e-5);
-    // The facet that mirrors the source to the eye.
-    const double slope_x = -(source.x - view_level) / sum_up;
-    const double slope_y = -source.y / sum_up;
-    const double away_east = std::sin(view_azimuth_rad);
-    const double away_north = std::cos(view_azimuth_rad);
-    const double east = slope_x * away_east + slope_y * away_north;
-    const double north = slope_x * away_north - slope_y * away_east;
-    const double exponent = 0.5 *
-                            (variance_.north_north * east * east + variance_.east_east * north * north -
-                             2.0 * variance_.east_north * east * north) /
-                            determinant_;
-    if (!(exponent < 40.0)) return 0.0;
-    const double density = std::exp(-exponent) / (2.0 * kPi * std::sqrt(determinant_));
-    const double upright2 = 1.0 / (1.0 + slope_x * slope_x + slope_y * slope_y);
+    Mirror found;
+    found.slope = {-(source.x - view_level) / sum_up, -source.y / sum_up};
+    const double upright2 = 1.0 / (1.0 + glm::dot(found.slope, found.slope));
     const double between = source_up * up - source.x * view_level;
     const double incidence = std::sqrt(std::clamp(0.5 * (1.0 + between), 0.0, 1.0));
 
+    const double away_east = std::sin(view_azimuth_rad);
+    const double away_north = std::cos(view_azimuth_rad);
     const double seen = up + hidden_up(up, rms_along(variance_, away_east, away_north));
     const double source_level = std::max(std::hypot(source.x, source.y), 1e-12);
     const double lit_east = (source.x * away_east + source.y * away_north) / source_level;
     const double lit_north = (source.x * away_north - source.y * away_east) / source_level;
     const double shadowed = hidden_up(source_up, rms_along(variance_, lit_east, lit_north)) / source_up;
-    return fresnel_reflectance(incidence) * density / (4.0 * upright2 * upright2 * (seen + up * shadowed));
+    found.per_density = fresnel_reflectance(incidence) / (4.0 * upright2 * upright2 * (seen + up * shadowed));
+    return found;
+}
+
+double SeaSurface::glitter_per_sr(double view_up, double view_azimuth_rad,
+                                  const glm::dvec3& source) const noexcept {
+    const Mirror at = mirror(view_up, view_azimuth_rad, source);
+    const double away_east = std::sin(view_azimuth_rad);
+    const double away_north = std::cos(view_azimuth_rad);
+    const double east = at.slope.x * away_east + at.slope.y * away_north;
+    const double north = at.slope.x * away_north - at.slope.y * away_east;
+    const double exponent = 0.5 *
+                            (variance_.north_north * east * east + variance_.east_east * north * north -
+                             2.0 * variance_.east_north * east * north) /
+                            determinant_;
+    if (!(exponent < 40.0)) return 0.0;
+    return at.per_density * std::exp(-exponent) / (2.0 * kPi * std::sqrt(determinant_));
 }
 
 SeaSurface::Facets SeaSurface::facets(double view_up) const noexcept {
     const double up = std::clamp(view_up, 0.0, 1.0);
     const double level = std::sqrt((1.0 - up) * (1.0 + up));
-    const double slope = std::sqrt(0.5 * variance_.total());
+    const double slope = facet_slope();
     // The eye sees those that do not rise away from it too steeply.
     const double steepest_away = level > 0.0 ? up / (level * slope) : kSteepest;
     const double from = -std::min(kSteepest, steepest_away);
@@ -146,7 +153,7 @@ SeaSurface::Facets SeaSurface::facets(double view_up) const noexcept {
             glm::dvec3 reflected = 2.0 * incidence * normal - view;
             reflected.z = std::abs(reflected.z);
             seen += area;
-            all[out++] = {reflected, area * fresnel_reflectance(incidence)};
+            all[out++] = {reflected, area * fresnel_reflectance(incidence), {x, kHermiteNode[j]}};
         }
     }
     for (Facet& facet : all)

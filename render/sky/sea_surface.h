@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <span>
@@ -27,11 +28,17 @@ struct SlopeVariance {
     [[nodiscard]] double total() const noexcept { return east_east + north_north; }
 };
 
+/// Largest slope of a train of height H (trough to crest) and length L, a sine of small slope (Airy 1845): pi H / L,
+/// H / L at most 0.142 (Michell 1893: then it breaks). 0 for what is no wave.
+[[nodiscard]] double wave_slope(const Wave& wave) noexcept;
+
+/// Without wind the sea is smooth along it: a slope of 1 deg always is left, each way.
+inline constexpr double kLeastVariance = 3e-4;
+
 /// Wind: clean surface of Cox and Munk, J. Opt. Soc. Am. 44 (1954) 838: 0.00316 W along it, 0.003 + 0.00192 W
 /// across, and half their sum each way below the wind where the lines cross (2.4 m/s); W in m/s at 12.5 m,
-/// here 0..25 (measured to 14; what is not finite counts as 0). Waves: a train of height H (trough to crest)
-/// and length L is a sine of small slope (Airy 1845): (pi H / L)^2 / 2 along its way, H / L at most 0.142
-/// (Michell 1893: then it breaks).
+/// here 0..25 (measured to 14; what is not finite counts as 0). Waves: half the square of wave_slope() along
+/// their way.
 [[nodiscard]] SlopeVariance slope_variance(const Ground& ground, std::span<const Wave> waves) noexcept;
 
 /// Slopes are Gaussian (Cox and Munk's skewness and peakedness are left out), hiding and shadowing are
@@ -47,6 +54,14 @@ class SeaSurface {
 
     [[nodiscard]] const SlopeVariance& variance() const noexcept { return variance_; }
 
+    /// The facets that mirror a small source into the eye.
+    struct Mirror {
+        glm::dvec2 slope{0.0};      ///< rise away from the eye and to its right
+        double per_density = 0.0;  ///< glitter_per_sr() over the density of that slope
+    };
+    [[nodiscard]] Mirror mirror(double view_up, double view_azimuth_rad,
+                                const glm::dvec3& source) const noexcept;
+
     /// Radiance towards the eye over irradiance on a plane facing the rays of a small source, 1/sr.
     /// \param view_up  sine of the elevation at which the surface sees the eye, 0..1 \param view_azimuth_rad
     /// clockwise from north, of x \param source  unit vector; a source below the level counts as on it
@@ -57,12 +72,17 @@ class SeaSurface {
     struct Facet {
         glm::dvec3 reflected{0.0, 0.0, 1.0};
         double share = 0.0;
+        /// Of its slope, away from the eye and to the right, in units of facet_slope().
+        glm::dvec2 deviation{0.0};
     };
     static constexpr std::size_t kFacets = 24;
     using Facets = std::array<Facet, kFacets>;
     /// Quadrature over the facets that the eye sees, wind and waves taken as without direction. Shares sum to
     /// the mean reflectance.
     [[nodiscard]] Facets facets(double view_up) const noexcept;
+
+    /// Root mean square of the facets' slope each way.
+    [[nodiscard]] double facet_slope() const noexcept { return std::sqrt(0.5 * variance_.total()); }
 
     /// Of the surface as the eye sees it: 0.02 from above; at the horizon well below 1.
     [[nodiscard]] double mean_reflectance(double view_up) const noexcept;

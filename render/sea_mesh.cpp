@@ -1,0 +1,48 @@
+#include "render/sea_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skyig::render {
+
+int SeaMesh::rows(const Dome& dome, const sky::SeaWaves& waves, double height_m, double pixel_rad) noexcept {
+    if (waves.count == 0) return 0;
+    const double number = glm::length(waves.trains.front().number_rad_m);
+    const double sine = sky::least_depression_sine(height_m, number, pixel_rad);
+    const std::size_t stride = static_cast<std::size_t>(dome.size().columns) + 1;
+    int row = 0;
+    while (row < dome.size().ground_rows &&
+           static_cast<double>(-dome.vertices()[static_cast<std::size_t>(row) * stride].direction.z) > sine)
+        ++row;
+    constexpr int kSide = static_cast<int>(DomePatches::kSide);
+    return std::min((row + kSide - 1) / kSide * kSide, dome.size().ground_rows / kSide * kSide);
+}
+
+SeaMesh::SeaMesh() {
+    vertices_.reserve(kMaxVertices);
+}
+
+void SeaMesh::lay_out(const Dome& dome, const SkyLight& light, double azimuth_rad, int rows) {
+    vertices_.resize(static_cast<std::size_t>(rows + 1) * (static_cast<std::size_t>(dome.size().columns) + 1));
+    const double risen = light.horizon_elevation_rad - dome.layout().horizon_elevation_rad;
+    const bool fades = dome.share() < 1.0;
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+        SeaVertex& vertex = vertices_[i];
+        const Horizontal at = horizontal_of(glm::dvec3{dome.vertices()[i].direction});
+        const SlopeLight slopes = light.of_slopes(at.elevation_rad + risen, azimuth_rad + at.azimuth_rad);
+        vertex.mean_to = dome.light()[i];
+        vertex.mean_from = fades ? dome.light_before()[i] : vertex.mean_to;
+        vertex.east = slopes.east;
+        vertex.north = slopes.north;
+        vertex.bend = slopes.bend_cd_m2 / std::max(shaders32::luminance_709(vertex.mean_to), 1e-12F);
+        vertex.glitter = slopes.glitter;
+    }
+    colour(dome);
+}
+
+void SeaMesh::colour(const Dome& dome) noexcept {
+    for (std::size_t i = 0; i < vertices_.size(); ++i)
+        vertices_[i].dome = dome.vertices()[i];
+}
+
+}  // namespace skyig::render

@@ -1,0 +1,63 @@
+#include "render/sea_pass.h"
+
+#include "render/eye/tone_curve.h"
+
+namespace skyig::render {
+
+SeaPass::SeaPass()
+    : program_("sky/sea.vert", "sky/sea.frag"),
+      mesh_({3, 3, 3, 3, 3, 3, 3, 3, 3}, SeaMesh::kMaxVertices),
+      tone_(program_, true),
+      clip_(program_.uniform("u_clip_from_mesh")),
+      enu_(program_.uniform("u_enu_from_mesh")),
+      share_(program_.uniform("u_share")),
+      half_size_(program_.uniform("u_half_size_px")),
+      dither_(program_.uniform("u_dither_codes")),
+      height_(program_.uniform("u_height_m")),
+      curvature_(program_.uniform("u_curvature_m2")),
+      pixel_(program_.uniform("u_pixel_rad")),
+      source_(program_.uniform("u_source_enu")),
+      variance_(program_.uniform("u_variance")),
+      count_(program_.uniform("u_wave_count")),
+      phases_(program_.uniform("u_wave_phase")),
+      shapes_(program_.uniform("u_wave_shape")) {}
+
+void SeaPass::prepare(const SkyFrame& frame, bool dither) {
+    if (vertices_revision_ != frame.sea_revision()) {
+        const auto vertices = frame.sea().vertices();
+        mesh_.update({reinterpret_cast<const float*>(vertices.data()), vertices.size_bytes() / sizeof(float)});
+        vertices_revision_ = frame.sea_revision();
+    }
+    if (triangles_revision_ != frame.triangles_revision()) {
+        mesh_.set_indices(frame.dome().indices());
+        triangles_revision_ = frame.triangles_revision();
+    }
+    const SeaShading& shading = frame.sea_shading();
+    tone_.set(program_, eye::single_precision(frame.tone()));
+    program_.set(enu_, glm::mat4{frame.enu_from_mesh()});
+    program_.set(share_, static_cast<float>(frame.dome().share()));
+    program_.set(dither_, dither ? 1.0F : 0.0F);
+    program_.set(height_, static_cast<float>(shading.height_m));
+    program_.set(curvature_, static_cast<float>(shading.curvature_m2));
+    program_.set(pixel_, static_cast<float>(shading.pixel_rad));
+    program_.set(source_, glm::vec3{shading.source_enu});
+    program_.set(variance_, glm::vec3{shading.variance});
+    program_.set(count_, static_cast<float>(frame.waves().count));
+    int i = 0;  // elements of an array lie one location apart
+    for (const shaders64::WaveTrain& train : frame.waves().all()) {
+        program_.set(phases_ + i, glm::vec3{glm::dvec3{train.number_rad_m, train.phase_rad}});
+        program_.set(shapes_ + i, glm::vec2{glm::dvec2{train.slope, train.skew}});
+        ++i;
+    }
+}
+
+void SeaPass::draw(const Channel& channel, const glm::dmat4& clip_from_mesh,
+                   std::span<const IndexRange> ranges) const {
+    program_.use();
+    program_.set(clip_, glm::mat4{clip_from_mesh});
+    program_.set(half_size_, 0.5F * glm::vec2{channel.width_px, channel.height_px});
+    for (const IndexRange& range : ranges)
+        mesh_.draw_triangles(range.first, range.count);
+}
+
+}  // namespace skyig::render
