@@ -86,7 +86,8 @@ class Dome {
     void step() noexcept;
 
     [[nodiscard]] std::span<const DomeVertex> vertices() const noexcept { return vertices_; }
-    /// Of each vertex, linear Rec.709, cd/m2: what the fade leads to, and, while it lasts, what it began with.
+    /// Of each vertex, linear Rec.709, cd/m2: what the fade leads to, and, while it lasts, what it began
+    /// with.
     [[nodiscard]] std::span<const glm::vec3> light() const noexcept { return to_; }
     [[nodiscard]] std::span<const glm::vec3> light_before() const noexcept { return from_; }
     [[nodiscard]] std::span<const std::uint32_t> indices() const noexcept { return patches_.indices(); }

@@ -196,8 +196,8 @@ DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& qu
 
 void plan_waves(Plan& plan, const Scene& scene, const sky::SeaWaves& waves, bool lit) noexcept {
     const auto told = scene.sea.all_waves();
-    const bool any = std::any_of(told.begin(), told.end(),
-                                 [](const Wave& wave) { return sky::wave_slope(wave) > 0.0; });
+    const bool any =
+        std::any_of(told.begin(), told.end(), [](const Wave& wave) { return sky::wave_slope(wave) > 0.0; });
     if (scene.ground.kind != Ground::Kind::kSea) {
         put(plan, Pass::kWaves, {false, "there is no sea"});
     } else if (!any) {

@@ -158,7 +158,8 @@ void Renderer::Impl::draw_dome(const Channel& channel, const glm::dmat4& clip_fr
     const auto sea_rows = static_cast<std::uint32_t>(frame.sea_rows());
     for (const IndexRange& range : frame.dome().visible(clip_from_mesh, {.first = sea_rows}))
         dome_mesh.draw_triangles(range.first, range.count);
-    if (sea_rows > 0) sea.draw(channel, clip_from_mesh, frame.dome().visible(clip_from_mesh, {.end = sea_rows}));
+    if (sea_rows > 0)
+        sea.draw(channel, clip_from_mesh, frame.dome().visible(clip_from_mesh, {.end = sea_rows}));
 }
 
 void Renderer::Impl::refresh_deferred() {

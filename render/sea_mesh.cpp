@@ -11,8 +11,9 @@ int SeaMesh::rows(const Dome& dome, const sky::SeaWaves& waves, double height_m,
     const double sine = sky::least_depression_sine(height_m, number, pixel_rad);
     const std::size_t stride = static_cast<std::size_t>(dome.size().columns) + 1;
     int row = 0;
-    while (row < dome.size().ground_rows &&
-           static_cast<double>(-dome.vertices()[static_cast<std::size_t>(row) * stride].direction.z) > sine)
+    while (row<dome.size().ground_rows&& static_cast<double>(
+               -dome.vertices()[static_cast<std::size_t>(row) * stride].direction.z)>
+               sine)
         ++row;
     constexpr int kSide = static_cast<int>(DomePatches::kSide);
     return std::min((row + kSide - 1) / kSide * kSide, dome.size().ground_rows / kSide * kSide);
@@ -23,18 +24,19 @@ SeaMesh::SeaMesh() {
 }
 
 void SeaMesh::lay_out(const Dome& dome, const SkyLight& light, double azimuth_rad, int rows) {
-    vertices_.resize(static_cast<std::size_t>(rows + 1) * (static_cast<std::size_t>(dome.size().columns) + 1));
+    vertices_.resize(static_cast<std::size_t>(rows + 1) *
+                     (static_cast<std::size_t>(dome.size().columns) + 1));
     const double risen = light.horizon_elevation_rad - dome.layout().horizon_elevation_rad;
     const bool fades = dome.share() < 1.0;
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
         SeaVertex& vertex = vertices_[i];
         const Horizontal at = horizontal_of(glm::dvec3{dome.vertices()[i].direction});
         const SlopeLight slopes = light.of_slopes(at.elevation_rad + risen, azimuth_rad + at.azimuth_rad);
-        vertex.mean_to = dome.light()[i];
-        vertex.mean_from = fades ? dome.light_before()[i] : vertex.mean_to;
+        vertex.smooth_to = slopes.without_glitter(dome.light()[i]);
+        vertex.smooth_from = fades ? slopes.without_glitter(dome.light_before()[i]) : vertex.smooth_to;
         vertex.east = slopes.east;
         vertex.north = slopes.north;
-        vertex.bend = slopes.bend_cd_m2 / std::max(shaders32::luminance_709(vertex.mean_to), 1e-12F);
+        vertex.bend = slopes.bend_cd_m2 / std::max(shaders32::luminance_709(vertex.smooth_to), 1e-12F);
         vertex.glitter = slopes.glitter;
     }
     colour(dome);

@@ -15,8 +15,8 @@ namespace skyig::render {
 /// As the vertex shader sky/sea.vert takes it: shaders' WaveLight beside the dome's colours, linear Rec.709.
 struct SeaVertex {
     DomeVertex dome;
-    glm::vec3 mean_from;  ///< at the begin of the dome's fade and at its end
-    glm::vec3 mean_to;
+    glm::vec3 smooth_from;  ///< at the begin of the dome's fade and at its end
+    glm::vec3 smooth_to;
     glm::vec3 east;
     glm::vec3 north;
     glm::vec3 bend;
@@ -28,8 +28,8 @@ class SeaMesh {
     static constexpr std::size_t kMaxVertices = static_cast<std::size_t>(DomeBend::kMost.ground_rows + 1) *
                                                 static_cast<std::size_t>(DomeBend::kMost.columns + 1);
 
-    /// Rows of the dome's quads, from the nadir, in which the longest train is resolved: whole patches, at most
-    /// those below the horizon. None without waves.
+    /// Rows of the dome's quads, from the nadir, in which the longest train is resolved: whole patches, at
+    /// most those below the horizon. None without waves.
     [[nodiscard]] static int rows(const Dome& dome, const sky::SeaWaves& waves, double height_m,
                                   double pixel_rad) noexcept;
 

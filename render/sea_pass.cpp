@@ -25,7 +25,8 @@ SeaPass::SeaPass()
 void SeaPass::prepare(const SkyFrame& frame, bool dither) {
     if (vertices_revision_ != frame.sea_revision()) {
         const auto vertices = frame.sea().vertices();
-        mesh_.update({reinterpret_cast<const float*>(vertices.data()), vertices.size_bytes() / sizeof(float)});
+        mesh_.update(
+            {reinterpret_cast<const float*>(vertices.data()), vertices.size_bytes() / sizeof(float)});
         vertices_revision_ = frame.sea_revision();
     }
     if (triangles_revision_ != frame.triangles_revision()) {

@@ -108,7 +108,9 @@ void SkyFrame::refresh_sea(const Scene& scene, double pixel_rad) {
     const double height_m = sky::height_above_sea_m(scene);
     const int rows = plan_.needs(Pass::kWaves) ? SeaMesh::rows(dome_, waves_, height_m, pixel_rad) : 0;
     const sky::SlopeVariance variance = sky::slope_variance(scene.ground, scene.sea.all_waves());
-    sea_shading_ = {height_m, 0.5 / (kEarthRadius_m * height_m), pixel_rad,
+    sea_shading_ = {height_m,
+                    0.5 / (kEarthRadius_m * height_m),
+                    pixel_rad,
                     direction_of(light_.glittering().source),
                     {variance.east_east + sky::kLeastVariance, variance.north_north + sky::kLeastVariance,
                      variance.east_north}};
@@ -136,10 +138,10 @@ glm::dvec3 SkyFrame::exact_colour(const glm::dvec3& direction_enu) const {
     const Horizontal at = horizontal_of(direction_enu);
     const glm::dvec3 rgb{light_.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation)};
     const bool sea = sea_rows_ > 0 && at.elevation_rad < light_.horizon_elevation_rad;
-    return shaders64::shown(sea ? wave_light(direction_enu, rgb) : rgb, tone_);
+    return sea ? waves_colour(direction_enu, rgb) : shaders64::shown(rgb, tone_);
 }
 
-glm::dvec3 SkyFrame::wave_light(const glm::dvec3& direction_enu, const glm::dvec3& mean_cd_m2) const {
+glm::dvec3 SkyFrame::waves_colour(const glm::dvec3& direction_enu, const glm::dvec3& mean_cd_m2) const {
     const SeaShading& sea = sea_shading_;
     const glm::dvec2 at_m = shaders64::sea_point_m(direction_enu, sea.height_m, sea.curvature_m2);
     const double footprint_m = shaders64::footprint_m(at_m, sea.height_m, sea.pixel_rad);
@@ -148,11 +150,15 @@ glm::dvec3 SkyFrame::wave_light(const glm::dvec3& direction_enu, const glm::dvec
         slope = shaders64::with_train(slope, train, at_m, footprint_m);
     const Horizontal at = horizontal_of(direction_enu);
     const SlopeLight slopes = light_.of_slopes(at.elevation_rad, at.azimuth_rad);
-    const glm::dvec3 bend =
-        glm::dvec3{slopes.bend_cd_m2} / std::max(shaders64::luminance_709(mean_cd_m2), 1e-12);
+    const glm::dvec3 smooth{slopes.without_glitter(glm::vec3{mean_cd_m2})};
+    const glm::dvec3 bend = glm::dvec3{slopes.bend_cd_m2} / std::max(shaders64::luminance_709(smooth), 1e-12);
     const glm::dvec3 to_eye = glm::normalize(glm::dvec3{-at_m, sea.height_m});
-    return shaders64::wave_lit({mean_cd_m2, slopes.east, slopes.north, bend, slopes.glitter}, slope,
-                               shaders64::mirroring_slope(to_eye, sea.source_enu), sea.variance);
+    const glm::dvec3 lit =
+        shaders64::wave_lit({smooth, slopes.east, slopes.north, bend, slopes.glitter}, slope,
+                            shaders64::mirroring_slope(to_eye, sea.source_enu), sea.variance);
+    const double step_rad = glm::length(waves_.trains.front().number_rad_m) * footprint_m;
+    return glm::mix(shaders64::shown(mean_cd_m2, tone_), shaders64::shown(lit, tone_),
+                    shaders64::shaded_share(step_rad));
 }
 
 }  // namespace skyig::render

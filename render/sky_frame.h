@@ -66,7 +66,8 @@ class SkyFrame {
     void refresh_dome(double pixel_rad);
     void refresh_sea(const Scene& scene, double pixel_rad);
     void tell_dome() noexcept;
-    [[nodiscard]] glm::dvec3 wave_light(const glm::dvec3& direction_enu, const glm::dvec3& mean_cd_m2) const;
+    [[nodiscard]] glm::dvec3 waves_colour(const glm::dvec3& direction_enu,
+                                          const glm::dvec3& mean_cd_m2) const;
 
     DisplaySettings display_;
     Quality quality_;

@@ -62,7 +62,8 @@ glm::vec3 SkyLight::rgb_cd_m2(double elevation_rad, double azimuth_rad, Side sid
 const LitAir& SkyLight::glittering() const noexcept {
     // Moonlight fades in below this.
     constexpr double kNight_rad = -0.052;
-    return sun.view != nullptr && (moon.view == nullptr || sun.source.elevation_rad > kNight_rad) ? sun : moon;
+    return sun.view != nullptr && (moon.view == nullptr || sun.source.elevation_rad > kNight_rad) ? sun
+                                                                                                  : moon;
 }
 
 SlopeLight SkyLight::of_slopes(double elevation_rad, double azimuth_rad) const noexcept {
@@ -75,7 +76,9 @@ SlopeLight SkyLight::of_slopes(double elevation_rad, double azimuth_rad) const n
         sum.east += rec709_from_xyz(lit->scale_xyz * slopes.east_xyz);
         sum.north += rec709_from_xyz(lit->scale_xyz * slopes.north_xyz);
         sum.bend_cd_m2 += lit->scale_xyz.y * slopes.bend;
-        if (lit == &glittering()) sum.glitter = rec709_from_xyz(lit->scale_xyz * slopes.glitter_xyz);
+        if (lit != &glittering()) continue;
+        sum.glitter = rec709_from_xyz(lit->scale_xyz * slopes.glitter_xyz);
+        sum.density = slopes.density;
     }
     return sum;
 }

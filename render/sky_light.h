@@ -31,6 +31,12 @@ struct SlopeLight {
     glm::vec3 north{0.0F};
     glm::vec3 bend_cd_m2{0.0F};
     glm::vec3 glitter{0.0F};
+    /// Of the mirroring slope, over all slopes: the mean light holds `glitter` times this.
+    float density = 0.0F;
+
+    [[nodiscard]] glm::vec3 without_glitter(const glm::vec3& mean) const noexcept {
+        return glm::max(mean - density * glitter, 0.0F);
+    }
 };
 
 struct SkyLight {

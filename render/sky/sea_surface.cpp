@@ -39,6 +39,16 @@ constexpr std::array<double, 3> kHermiteNode = {-1.7320508075688772, 0.0, 1.7320
 constexpr std::array<double, 3> kHermiteWeight = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};
 static_assert(kLegendreNode.size() * kHermiteNode.size() == SeaSurface::kFacets);
 
+// A source below the level counts as on it.
+constexpr double kLowestSource = 1e-5;
+
+// Rise away from the eye and to its right of the facet that mirrors a source into the eye.
+glm::dvec2 mirroring_slope(double view_up, const glm::dvec3& source) {
+    const double up = std::clamp(view_up, 0.0, 1.0);
+    const double sum_up = std::max(up + std::max(source.z, kLowestSource), kLowestSource);
+    return {-(source.x - std::sqrt((1.0 - up) * (1.0 + up))) / sum_up, -source.y / sum_up};
+}
+
 // Beyond this many standard deviations no facet counts.
 constexpr double kSteepest = 4.0;
 
@@ -94,13 +104,29 @@ SeaSurface::SeaSurface(const SlopeVariance& variance) noexcept : variance_(varia
 
 SeaSurface::Mirror SeaSurface::mirror(double view_up, double view_azimuth_rad,
                                       const glm::dvec3& source) const noexcept {
+    const glm::dvec2 slope = mirroring_slope(view_up, source);
+    return {density(view_azimuth_rad, slope), per_density(view_up, view_azimuth_rad, source, slope)};
+}
+
+// 0 where it no longer counts.
+double SeaSurface::density(double view_azimuth_rad, const glm::dvec2& slope) const noexcept {
+    const double away_east = std::sin(view_azimuth_rad);
+    const double away_north = std::cos(view_azimuth_rad);
+    const double east = slope.x * away_east + slope.y * away_north;
+    const double north = slope.x * away_north - slope.y * away_east;
+    const double exponent = 0.5 *
+                            (variance_.north_north * east * east + variance_.east_east * north * north -
+                             2.0 * variance_.east_north * east * north) /
+                            determinant_;
+    return exponent < 40.0 ? std::exp(-exponent) / (2.0 * kPi * std::sqrt(determinant_)) : 0.0;
+}
+
+double SeaSurface::per_density(double view_up, double view_azimuth_rad, const glm::dvec3& source,
+                               const glm::dvec2& slope) const noexcept {
     const double up = std::clamp(view_up, 0.0, 1.0);
-    const double source_up = std::max(source.z, 1e-5);
+    const double source_up = std::max(source.z, kLowestSource);
     const double view_level = std::sqrt((1.0 - up) * (1.0 + up));
-    const double sum_up = std::max(up + source_up, 1e-5);
-    Mirror found;
-    found.slope = {-(source.x - view_level) / sum_up, -source.y / sum_up};
-    const double upright2 = 1.0 / (1.0 + glm::dot(found.slope, found.slope));
+    const double upright2 = 1.0 / (1.0 + glm::dot(slope, slope));
     const double between = source_up * up - source.x * view_level;
     const double incidence = std::sqrt(std::clamp(0.5 * (1.0 + between), 0.0, 1.0));
 
@@ -111,23 +137,14 @@ SeaSurface::Mirror SeaSurface::mirror(double view_up, double view_azimuth_rad,
     const double lit_east = (source.x * away_east + source.y * away_north) / source_level;
     const double lit_north = (source.x * away_north - source.y * away_east) / source_level;
     const double shadowed = hidden_up(source_up, rms_along(variance_, lit_east, lit_north)) / source_up;
-    found.per_density = fresnel_reflectance(incidence) / (4.0 * upright2 * upright2 * (seen + up * shadowed));
-    return found;
+    return fresnel_reflectance(incidence) / (4.0 * upright2 * upright2 * (seen + up * shadowed));
 }
 
 double SeaSurface::glitter_per_sr(double view_up, double view_azimuth_rad,
                                   const glm::dvec3& source) const noexcept {
-    const Mirror at = mirror(view_up, view_azimuth_rad, source);
-    const double away_east = std::sin(view_azimuth_rad);
-    const double away_north = std::cos(view_azimuth_rad);
-    const double east = at.slope.x * away_east + at.slope.y * away_north;
-    const double north = at.slope.x * away_north - at.slope.y * away_east;
-    const double exponent = 0.5 *
-                            (variance_.north_north * east * east + variance_.east_east * north * north -
-                             2.0 * variance_.east_north * east * north) /
-                            determinant_;
-    if (!(exponent < 40.0)) return 0.0;
-    return at.per_density * std::exp(-exponent) / (2.0 * kPi * std::sqrt(determinant_));
+    const glm::dvec2 slope = mirroring_slope(view_up, source);
+    const double found = density(view_azimuth_rad, slope);
+    return found > 0.0 ? found * per_density(view_up, view_azimuth_rad, source, slope) : 0.0;
 }
 
 SeaSurface::Facets SeaSurface::facets(double view_up) const noexcept {

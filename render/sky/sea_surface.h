@@ -28,8 +28,8 @@ struct SlopeVariance {
     [[nodiscard]] double total() const noexcept { return east_east + north_north; }
 };
 
-/// Largest slope of a train of height H (trough to crest) and length L, a sine of small slope (Airy 1845): pi H / L,
-/// H / L at most 0.142 (Michell 1893: then it breaks). 0 for what is no wave.
+/// Largest slope of a train of height H (trough to crest) and length L, a sine of small slope (Airy 1845): pi
+/// H / L, H / L at most 0.142 (Michell 1893: then it breaks). 0 for what is no wave.
 [[nodiscard]] double wave_slope(const Wave& wave) noexcept;
 
 /// Without wind the sea is smooth along it: a slope of 1 deg always is left, each way.
@@ -56,8 +56,8 @@ class SeaSurface {
 
     /// The facets that mirror a small source into the eye.
     struct Mirror {
-        glm::dvec2 slope{0.0};      ///< rise away from the eye and to its right
-        double per_density = 0.0;  ///< glitter_per_sr() over the density of that slope
+        double density = 0.0;      ///< of their slope, a unit of slope^2
+        double per_density = 0.0;  ///< glitter_per_sr() over that
     };
     [[nodiscard]] Mirror mirror(double view_up, double view_azimuth_rad,
                                 const glm::dvec3& source) const noexcept;
@@ -88,6 +88,10 @@ class SeaSurface {
     [[nodiscard]] double mean_reflectance(double view_up) const noexcept;
 
   private:
+    [[nodiscard]] double density(double view_azimuth_rad, const glm::dvec2& slope) const noexcept;
+    [[nodiscard]] double per_density(double view_up, double view_azimuth_rad, const glm::dvec3& source,
+                                     const glm::dvec2& slope) const noexcept;
+
     static constexpr std::size_t kNodes = 33;  // over the root of view_up
     SlopeVariance variance_;
     double determinant_ = 0.0;

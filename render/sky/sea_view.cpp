@@ -210,8 +210,7 @@ bool SeaView::State::place(double elevation_rad, double azimuth_rad, double sour
     out.row = rows.w(angle) * static_cast<float>(kRows - 1);
     out.column = folded_azimuth(static_cast<float>(out.relative_rad)) * std::numbers::inv_pi_v<float> *
                  static_cast<float>(kColumns - 1);
-    out.meeting =
-        Meeting(tables->data().shell, eye_height_m, std::sin(elevation), std::cos(elevation));
+    out.meeting = Meeting(tables->data().shell, eye_height_m, std::sin(elevation), std::cos(elevation));
     out.source = out.meeting.turned(source_at_eye(source_sine, source_level, out.relative_rad));
     return true;
 }
@@ -248,12 +247,14 @@ SeaView::OfSlopes SeaView::of_slopes(double elevation_rad, double azimuth_rad,
     const auto n = static_cast<float>(std::cos(azimuth_rad));
     const glm::vec3& b = found.bend;
     const Node light = s.grid.sample(at.row, at.column);
-    const auto per_density =
-        static_cast<float>(s.surface.mirror(at.meeting.view_up, azimuth_rad, at.source).per_density);
-    return {e * found.first_xyz + n * found.second_xyz, n * found.first_xyz - e * found.second_xyz,
+    const SeaSurface::Mirror mirror = s.surface.mirror(at.meeting.view_up, azimuth_rad, at.source);
+    const auto per_density = static_cast<float>(mirror.per_density);
+    return {e * found.first_xyz + n * found.second_xyz,
+            n * found.first_xyz - e * found.second_xyz,
             {e * e * b.x + n * n * b.y + 2.0F * e * n * b.z, n * n * b.x + e * e * b.y - 2.0F * e * n * b.z,
              e * n * (b.x - b.y) + (n * n - e * e) * b.z},
-            glm::max(per_density * glm::vec3{light[4], light[5], light[6]}, glm::vec3(0.0F))};
+            glm::max(per_density * glm::vec3{light[4], light[5], light[6]}, glm::vec3(0.0F)),
+            static_cast<float>(mirror.density)};
 }
 
 double SeaView::horizon_elevation_rad() const noexcept {

@@ -73,9 +73,9 @@ SeaWaves sea_waves(const Scene& scene, double pixel_rad) noexcept {
         if (!is_sound(wave)) continue;
         const double number = 2.0 * kPi / wave.length_m;
         if (least_depression_sine(height_m, number, pixel_rad) >= 1.0) continue;
-        const glm::dvec2 along = number * glm::dvec2{std::sin(wave.direction_rad), std::cos(wave.direction_rad)};
-        const double phase =
-            glm::dot(along, anchor.eye_m) - turns_rad(wave, scene.time_s) + wave.phase_rad;
+        const glm::dvec2 along =
+            number * glm::dvec2{std::sin(wave.direction_rad), std::cos(wave.direction_rad)};
+        const double phase = glm::dot(along, anchor.eye_m) - turns_rad(wave, scene.time_s) + wave.phase_rad;
         waves.trains[waves.count++] = {{along.x, along.y + along.x * anchor.closing},
                                        std::remainder(phase, 2.0 * kPi),
                                        wave_slope(wave),

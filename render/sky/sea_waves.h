@@ -1,5 +1,5 @@
-// The told waves as a frame sees them: trains of crests that run over the Earth. Which of them a pixel resolves,
-// and where. Pure mathematics.
+// The told waves as a frame sees them: trains of crests that run over the Earth. Which of them a pixel
+// resolves, and where. Pure mathematics.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace skyig::render::sky {
 
-/// Metres over the ellipsoid from where the equator meets the nearest meridian of whole five degrees: along the
-/// eye's own parallel, and along the meridian (WGS84; Snyder 1987, Map Projections, eq. 3-21 and 4-21).
+/// Metres over the ellipsoid from where the equator meets the nearest meridian of whole five degrees: along
+/// the eye's own parallel, and along the meridian (WGS84; Snyder 1987, Map Projections, eq. 3-21 and 4-21).
 struct SeaAnchor {
     glm::dvec2 eye_m{0.0};
     /// What `eye_m.x` gains a metre to the north: parallels grow shorter. Within 0.044 of 0.
@@ -31,9 +31,9 @@ struct SeaWaves {
 };
 
 /// Trains that pixels of this angle resolve straight below the eye, the longest first. A crest stands at the
-/// anchor at scene time 0 (Wave::phase_rad 0) and runs a wave's length in its period. Trains follow the anchor's
-/// own axes, so that they lie still on the Earth under a moving eye: their way is off the told one by at most
-/// 2.5 deg. Wave::leading_rad counts up to 1 either way.
+/// anchor at scene time 0 (Wave::phase_rad 0) and runs a wave's length in its period. Trains follow the
+/// anchor's own axes, so that they lie still on the Earth under a moving eye: their way is off the told one
+/// by at most 2.5 deg. Wave::leading_rad counts up to 1 either way.
 [[nodiscard]] SeaWaves sea_waves(const Scene& scene, double pixel_rad) noexcept;
 
 /// Of the eye above the sea, at least half a metre.

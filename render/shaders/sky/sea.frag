@@ -19,7 +19,7 @@ uniform vec2 u_wave_shape[kMaxWaves];  // slope, skew
 
 in vec3 v_encoded;
 in vec3 v_ray;
-in vec3 v_mean;
+in vec3 v_smooth;
 in vec3 v_east;
 in vec3 v_north;
 in vec3 v_bend;
@@ -37,8 +37,8 @@ void main() {
         waves = with_train(waves, train, at_m, footprint);
     }
     vec2 mirroring = mirroring_slope(normalize(vec3(-at_m, u_height_m)), u_source_enu);
-    WaveLight light = WaveLight(v_mean, v_east, v_north, v_bend, v_glitter);
+    WaveLight light = WaveLight(v_smooth, v_east, v_north, v_bend, v_glitter);
     vec3 lit = shown(wave_lit(light, waves, mirroring, u_variance), u_tone);
-    float share = resolved_share(length(u_wave_phase[0].xy) * footprint);
+    float share = shaded_share(length(u_wave_phase[0].xy) * footprint);
     o_colour = vec4(dithered(mix(v_encoded, lit, share), v_dither_phase_w * gl_FragCoord.w), 1.0);
 }

@@ -16,10 +16,10 @@ struct ResolvedSlope {
 };
 
 struct WaveLight {
-    rvec3 mean;              // of all waves, cd/m2
+    rvec3 smooth_part;       // mean of all waves without glitter, cd/m2
     rvec3 east;              // what a unit of slope adds to it
     rvec3 north;
-    rvec3 bend;              // a unit of slope^2, as a share of the mean: east-east, north-north, east-north
+    rvec3 bend;              // a unit of slope^2, as a share of the same: east-east, north-north, east-north
     rvec3 glitter;           // a unit of density of slopes at the mirroring one
 };
 
@@ -42,6 +42,9 @@ SKYIG_INLINE real resolved_share(real step_rad) {
     real left = max(real(1.0) - part * part, real(0.0));
     return left * left;
 }
+
+// How much of this shading is shown over the mean's colour: all of it until the longest train all but ends.
+SKYIG_INLINE real shaded_share(real step_rad) { return min(real(4.0) * resolved_share(step_rad), real(1.0)); }
 
 SKYIG_INLINE ResolvedSlope with_train(ResolvedSlope sum, WaveTrain train, rvec2 at_m, real footprint) {
     real number = sqrt(dot(train.number_rad_m, train.number_rad_m));
@@ -68,12 +71,12 @@ SKYIG_INLINE real slope_density(rvec2 slope, rvec3 variance) {
     return exp(real(-0.5) * exponent) * real(0.1591549431) / sqrt(determinant);
 }
 
-// `variance` is that of all slopes. No water is darker than a thirtieth of the mean.
+// `variance` is that of all slopes. No water is darker than a thirtieth of its smooth part.
 SKYIG_INLINE rvec3 wave_lit(WaveLight light, ResolvedSlope waves, rvec2 mirroring, rvec3 variance) {
     rvec2 s = waves.slope;
     rvec3 square = rvec3(s.x * s.x, s.y * s.y, s.x * s.y) - waves.variance;
     real bend = light.bend.x * square.x + light.bend.y * square.y + real(2.0) * light.bend.z * square.z;
-    real density = slope_density(mirroring - s, variance - waves.variance) - slope_density(mirroring, variance);
-    rvec3 lit = light.mean * (real(1.0) + bend) + light.east * s.x + light.north * s.y + light.glitter * density;
-    return max(lit, light.mean * real(0.03));
+    rvec3 lit = light.smooth_part * (real(1.0) + bend) + light.east * s.x + light.north * s.y;
+    return max(lit, light.smooth_part * real(0.03)) +
+           light.glitter * slope_density(mirroring - s, variance - waves.variance);
 }

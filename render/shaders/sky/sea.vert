@@ -5,8 +5,8 @@
 layout(location = 0) in vec3 a_direction;
 layout(location = 1) in vec3 a_from;
 layout(location = 2) in vec3 a_to;
-layout(location = 3) in vec3 a_mean_from;
-layout(location = 4) in vec3 a_mean_to;
+layout(location = 3) in vec3 a_smooth_from;
+layout(location = 4) in vec3 a_smooth_to;
 layout(location = 5) in vec3 a_east;
 layout(location = 6) in vec3 a_north;
 layout(location = 7) in vec3 a_bend;
@@ -19,7 +19,7 @@ uniform vec2 u_half_size_px;
 
 out vec3 v_encoded;
 out vec3 v_ray;
-out vec3 v_mean;
+out vec3 v_smooth;
 out vec3 v_east;
 out vec3 v_north;
 out vec3 v_bend;
@@ -29,7 +29,7 @@ out float v_dither_phase_w;
 void main() {
     v_encoded = mix(a_from, a_to, u_share);
     v_ray = (u_enu_from_mesh * vec4(a_direction, 1.0)).xyz;
-    v_mean = mix(a_mean_from, a_mean_to, u_share);
+    v_smooth = mix(a_smooth_from, a_smooth_to, u_share);
     v_east = a_east;
     v_north = a_north;
     v_bend = a_bend;
