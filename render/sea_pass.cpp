@@ -18,7 +18,6 @@ SeaPass::SeaPass()
       pixel_(program_.uniform("u_pixel_rad")),
       source_(program_.uniform("u_source_enu")),
       variance_(program_.uniform("u_variance")),
-      count_(program_.uniform("u_wave_count")),
       phases_(program_.uniform("u_wave_phase")),
       shapes_(program_.uniform("u_wave_shape")) {}
 
@@ -43,11 +42,11 @@ void SeaPass::prepare(const SkyFrame& frame, bool dither) {
     program_.set(pixel_, static_cast<float>(shading.pixel_rad));
     program_.set(source_, glm::vec3{shading.source_enu});
     program_.set(variance_, glm::vec3{shading.variance});
-    program_.set(count_, static_cast<float>(frame.waves().count));
+    // Those beyond the count have no rise.
     int i = 0;  // elements of an array lie one location apart
-    for (const shaders64::WaveTrain& train : frame.waves().all()) {
+    for (const shaders64::WaveTrain& train : frame.waves().trains) {
         program_.set(phases_ + i, glm::vec3{glm::dvec3{train.number_rad_m, train.phase_rad}});
-        program_.set(shapes_ + i, glm::vec2{glm::dvec2{train.slope, train.skew}});
+        program_.set(shapes_ + i, glm::vec3{glm::dvec3{train.rise, train.skew}});
         ++i;
     }
 }

@@ -28,8 +28,8 @@ class SeaPass {
     gl::Program program_;
     gl::Mesh mesh_;
     ToneUniforms tone_;
-    int clip_, enu_, share_, half_size_, dither_, height_, curvature_, pixel_, source_, variance_, count_,
-        phases_, shapes_;
+    int clip_, enu_, share_, half_size_, dither_, height_, curvature_, pixel_, source_, variance_, phases_,
+        shapes_;
     std::uint64_t vertices_revision_ = 0;
     std::uint64_t triangles_revision_ = 0;
 };

@@ -156,9 +156,8 @@ glm::dvec3 SkyFrame::waves_colour(const glm::dvec3& direction_enu, const glm::dv
     const glm::dvec3 lit =
         shaders64::wave_lit({smooth, slopes.east, slopes.north, bend, slopes.glitter}, slope,
                             shaders64::mirroring_slope(to_eye, sea.source_enu), sea.variance);
-    const double step_rad = glm::length(waves_.trains.front().number_rad_m) * footprint_m;
     return glm::mix(shaders64::shown(mean_cd_m2, tone_), shaders64::shown(lit, tone_),
-                    shaders64::shaded_share(step_rad));
+                    shaders64::shaded_share(waves_.trains.front().number_rad_m, footprint_m));
 }
 
 }  // namespace skyig::render

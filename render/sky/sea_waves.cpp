@@ -1,6 +1,7 @@
 #include "render/sky/sea_waves.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -44,6 +45,16 @@ double turns_rad(const Wave& wave, double time_s) {
     return 2.0 * kPi * std::remainder(time_s / wave.period_s, 1.0);
 }
 
+shaders64::WaveTrain train_of(const Wave& wave, const SeaAnchor& anchor, double time_s) {
+    const double number = 2.0 * kPi / wave.length_m;
+    const glm::dvec2 way{std::sin(wave.direction_rad), std::cos(wave.direction_rad)};
+    const glm::dvec2 on_earth = number * glm::dvec2{way.x, way.y + way.x * anchor.closing};
+    const double phase = number * glm::dot(way, anchor.eye_m) - turns_rad(wave, time_s) + wave.phase_rad;
+    const double skew = skew_of(wave.leading_rad);
+    return {on_earth, std::remainder(phase, 2.0 * kPi),
+            glm::normalize(on_earth) * (wave_slope(wave) / std::hypot(1.0, skew)), skew};
+}
+
 }  // namespace
 
 SeaAnchor sea_anchor(const Eye& eye) noexcept {
@@ -66,25 +77,23 @@ double least_depression_sine(double height_m, double number_rad_m, double pixel_
 }
 
 SeaWaves sea_waves(const Scene& scene, double pixel_rad) noexcept {
-    const SeaAnchor anchor = sea_anchor(scene.eye);
     const double height_m = height_above_sea_m(scene);
-    SeaWaves waves;
+    std::array<const Wave*, kMaxWaves> told{};
+    std::size_t resolved = 0;
     for (const Wave& wave : scene.sea.all_waves()) {
-        if (!is_sound(wave)) continue;
-        const double number = 2.0 * kPi / wave.length_m;
-        if (least_depression_sine(height_m, number, pixel_rad) >= 1.0) continue;
-        const glm::dvec2 along =
-            number * glm::dvec2{std::sin(wave.direction_rad), std::cos(wave.direction_rad)};
-        const double phase = glm::dot(along, anchor.eye_m) - turns_rad(wave, scene.time_s) + wave.phase_rad;
-        waves.trains[waves.count++] = {{along.x, along.y + along.x * anchor.closing},
-                                       std::remainder(phase, 2.0 * kPi),
-                                       wave_slope(wave),
-                                       skew_of(wave.leading_rad)};
+        if (is_sound(wave) && least_depression_sine(height_m, 2.0 * kPi / wave.length_m, pixel_rad) < 1.0)
+            told[resolved++] = &wave;
     }
-    std::sort(waves.trains.begin(), waves.trains.begin() + static_cast<std::ptrdiff_t>(waves.count),
-              [](const shaders64::WaveTrain& a, const shaders64::WaveTrain& b) {
-                  return glm::dot(a.number_rad_m, a.number_rad_m) < glm::dot(b.number_rad_m, b.number_rad_m);
-              });
+    const auto begin = told.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(resolved);
+    std::sort(begin, end, [](const Wave* a, const Wave* b) { return wave_slope(*a) > wave_slope(*b); });
+    SeaWaves waves;
+    waves.count = std::min(resolved, SeaWaves::kMost);
+    const auto kept = begin + static_cast<std::ptrdiff_t>(waves.count);
+    std::sort(begin, kept, [](const Wave* a, const Wave* b) { return a->length_m > b->length_m; });
+    const SeaAnchor anchor = sea_anchor(scene.eye);
+    std::transform(begin, kept, waves.trains.begin(),
+                   [&](const Wave* wave) { return train_of(*wave, anchor, scene.time_s); });
     return waves;
 }
 

@@ -22,7 +22,10 @@ struct SeaAnchor {
 [[nodiscard]] SeaAnchor sea_anchor(const Eye& eye) noexcept;
 
 struct SeaWaves {
-    std::array<shaders64::WaveTrain, kMaxWaves> trains{};
+    /// As many as sky/sea.frag takes.
+    static constexpr std::size_t kMost = 4;
+
+    std::array<shaders64::WaveTrain, kMost> trains{};
     std::size_t count = 0;
 
     [[nodiscard]] std::span<const shaders64::WaveTrain> all() const noexcept {
@@ -30,10 +33,11 @@ struct SeaWaves {
     }
 };
 
-/// Trains that pixels of this angle resolve straight below the eye, the longest first. A crest stands at the
-/// anchor at scene time 0 (Wave::phase_rad 0) and runs a wave's length in its period. Trains follow the
-/// anchor's own axes, so that they lie still on the Earth under a moving eye: their way is off the told one
-/// by at most 2.5 deg. Wave::leading_rad counts up to 1 either way.
+/// The steepest trains that pixels of this angle resolve straight below the eye, the longest first; all
+/// others only roughen the sea. A crest stands at the anchor at scene time 0 (Wave::phase_rad 0) and runs a
+/// wave's length in its period. Trains follow the anchor's own axes, so that they lie still on the Earth
+/// under a moving eye: their way is off the told one by at most 2.5 deg. Wave::leading_rad counts up to 1
+/// either way.
 [[nodiscard]] SeaWaves sea_waves(const Scene& scene, double pixel_rad) noexcept;
 
 /// Of the eye above the sea, at least half a metre.

@@ -6,8 +6,8 @@
 struct WaveTrain {
     rvec2 number_rad_m;      // phase per metre to the east and to the north
     real phase_rad;          // below the eye
-    real slope;              // amplitude
-    real skew;               // share of the second harmonic: the crest leads
+    rvec2 rise;              // amplitude of the slope's first harmonic, to the east and to the north
+    real skew;               // the second harmonic's share of it: the crest leads
 };
 
 struct ResolvedSlope {
@@ -35,27 +35,33 @@ SKYIG_INLINE real footprint_m(rvec2 at_m, real height_m, real pixel_rad) {
     return pixel_rad * (dot(at_m, at_m) / height_m + height_m);
 }
 
-// Part of a wave's amplitude that is drawn where its phase turns by this much from pixel to pixel: 1 near the eye, as the
-// mean over a footprint leaves it, and 0 from two pixels a wave on.
-SKYIG_INLINE real resolved_share(real step_rad) {
-    real part = step_rad * real(0.3183098862);
-    real left = max(real(1.0) - part * part, real(0.0));
-    return left * left;
+// Part of a wave's amplitude that is drawn where its phase turns by `number` radians a metre and pixels leave such a
+// footprint: 1 near the eye, as the mean over a footprint leaves it, and 0 from two pixels a wave on.
+SKYIG_INLINE real resolved_share(rvec2 number_rad_m, real footprint) {
+    real left = real(1.0) - dot(number_rad_m, number_rad_m) * footprint * footprint * real(0.1013211836);
+    return max(left, real(0.0)) * max(left, real(0.0));
 }
 
 // How much of this shading is shown over the mean's colour: all of it until the longest train all but ends.
-SKYIG_INLINE real shaded_share(real step_rad) { return min(real(4.0) * resolved_share(step_rad), real(1.0)); }
+SKYIG_INLINE real shaded_share(rvec2 longest_rad_m, real footprint) {
+    return min(real(4.0) * resolved_share(longest_rad_m, footprint), real(1.0));
+}
+
+// Sine by two parabolas a period, within 0.0011.
+SKYIG_INLINE real wave_sine(real phase_rad) {
+    real turns = phase_rad * real(0.1591549431);
+    real x = turns - floor(turns + real(0.5));
+    real rough = x * (real(8.0) - real(16.0) * abs(x));
+    return rough * (real(0.775) + real(0.225) * abs(rough));
+}
 
 SKYIG_INLINE ResolvedSlope with_train(ResolvedSlope sum, WaveTrain train, rvec2 at_m, real footprint) {
-    real number = sqrt(dot(train.number_rad_m, train.number_rad_m));
-    real amplitude = train.slope * resolved_share(number * footprint);
-    rvec2 along = train.number_rad_m / number;
-    real s = sin(dot(train.number_rad_m, at_m) + train.phase_rad);
-    real rise = amplitude * (train.skew * (real(1.0) - real(2.0) * s * s) - s) /
-                sqrt(real(1.0) + train.skew * train.skew);
-    real variance = real(0.5) * amplitude * amplitude;
-    return ResolvedSlope(sum.slope + along * rise,
-                         sum.variance + variance * rvec3(along.x * along.x, along.y * along.y, along.x * along.y));
+    real share = resolved_share(train.number_rad_m, footprint);
+    real s = wave_sine(dot(train.number_rad_m, at_m) + train.phase_rad);
+    rvec2 rise = train.rise * share;
+    real variance = real(0.5) + real(0.5) * train.skew * train.skew;
+    return ResolvedSlope(sum.slope + rise * (train.skew * (real(1.0) - real(2.0) * s * s) - s),
+                         sum.variance + variance * rvec3(rise.x * rise.x, rise.y * rise.y, rise.x * rise.y));
 }
 
 // Slope of the facet that mirrors a source into the eye; both unit vectors from the water, east-north-up.

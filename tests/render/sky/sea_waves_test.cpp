@@ -100,9 +100,9 @@ TEST(SeaWaves, CrestLeadsTheMiddleBetweenItsTroughsAndKeepsTheSlopes) {
             if (height < lowest) lowest = height, trough = phase;
         }
         // From the middle between the troughs, half a wave from either.
-        EXPECT_NEAR(turned(trough + kPi, crest), leading, 2e-3) << leading;
+        EXPECT_NEAR(turned(trough + kPi, crest), leading, 4e-3) << leading;
         const double told = wave_slope(scene.sea.waves[0]);
-        EXPECT_NEAR(squares, 0.5 * told * told, 1e-6 * told * told) << leading;
+        EXPECT_NEAR(squares, 0.5 * told * told, 2e-3 * told * told) << leading;
     }
 }
 
@@ -126,8 +126,8 @@ TEST(SeaWaves, EndWherePixelsDoNotResolveThem) {
     const double sine = least_depression_sine(30.0, number, kPixel_rad);
     for (const double part : {0.999, 1.2}) {
         const double tangent = part * sine / std::sqrt(1.0 - part * part * sine * sine);
-        const double step = number * shaders64::footprint_m({30.0 / tangent, 0.0}, 30.0, kPixel_rad);
-        EXPECT_EQ(shaders64::resolved_share(step) > 0.0, part > 1.0);
+        const double footprint = shaders64::footprint_m({30.0 / tangent, 0.0}, 30.0, kPixel_rad);
+        EXPECT_EQ(shaders64::resolved_share({number, 0.0}, footprint) > 0.0, part > 1.0);
     }
 }
 
