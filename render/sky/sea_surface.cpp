@@ -100,6 +100,29 @@ SeaSurface::SeaSurface(const SlopeVariance& variance) noexcept : variance_(varia
         for (const Facet& facet : facets(root * root))
             reflectance_[k] += facet.share;
     }
+    const double slope = facet_slope();
+    for (std::size_t k = 0; k < kNodes; ++k) {
+        const double root = std::max(1.0, static_cast<double>(k)) / (kNodes - 1);
+        const double hidden = hidden_up(root * root, slope) / (root * root);
+        for (const Facet& facet : facets(root * root)) {
+            const double up = facet.mirrored_up;
+            const double leaves =
+                up > 0.0 ? (1.0 + hidden) / (1.0 + hidden + hidden_up(up, slope) / up) : 0.0;
+            sent_on_[k] += facet.share * (1.0 - leaves) * second_reflectance(-up);
+        }
+    }
+}
+
+double SeaSurface::second_reflectance(double view_up) const noexcept {
+    if (view_up >= 0.0) return mean_reflectance(view_up);
+    double sum = 0.0;
+    for (const Facet& facet : facets(view_up))
+        sum += facet.share;
+    return sum;
+}
+
+double SeaSurface::sent_on(double source_up) const noexcept {
+    return at_root(sent_on_, source_up);
 }
 
 SeaSurface::Mirror SeaSurface::mirror(double view_up, double view_azimuth_rad,
@@ -144,16 +167,19 @@ double SeaSurface::glitter_per_sr(double view_up, double view_azimuth_rad,
                                   const glm::dvec3& source) const noexcept {
     const glm::dvec2 slope = mirroring_slope(view_up, source);
     const double found = density(view_azimuth_rad, slope);
-    return found > 0.0 ? found * per_density(view_up, view_azimuth_rad, source, slope) : 0.0;
+    const double first = found > 0.0 ? found * per_density(view_up, view_azimuth_rad, source, slope) : 0.0;
+    const double source_up = std::max(source.z, kLowestSource);
+    const double onwards = 1.0 + source.x / std::max(std::hypot(source.x, source.y), 1e-12);
+    return first + source_up * sent_on(source_up) * onwards / kPi;
 }
 
 SeaSurface::Facets SeaSurface::facets(double view_up) const noexcept {
-    const double up = std::clamp(view_up, 0.0, 1.0);
+    const double up = std::clamp(view_up, -1.0, 1.0);
     const double level = std::sqrt((1.0 - up) * (1.0 + up));
     const double slope = facet_slope();
     // The eye sees those that do not rise away from it too steeply.
-    const double steepest_away = level > 0.0 ? up / (level * slope) : kSteepest;
-    const double from = -std::min(kSteepest, steepest_away);
+    const double steepest_away = level > 0.0 ? up / (level * slope) : std::copysign(kSteepest, up);
+    const double from = -std::clamp(steepest_away, -kSteepest, kSteepest);
     const double middle = 0.5 * (kSteepest + from);
     const double half = 0.5 * (kSteepest - from);
     const glm::dvec3 view{-level, 0.0, up};
@@ -168,9 +194,11 @@ SeaSurface::Facets SeaSurface::facets(double view_up) const noexcept {
             const double incidence = std::max(0.0, glm::dot(normal, view));
             const double area = along * kHermiteWeight[j] * incidence / normal.z;
             glm::dvec3 reflected = 2.0 * incidence * normal - view;
+            const double mirrored_up = reflected.z;
             reflected.z = std::abs(reflected.z);
             seen += area;
-            all[out++] = {reflected, area * fresnel_reflectance(incidence), {x, kHermiteNode[j]}};
+            all[out++] = {
+                reflected, area * fresnel_reflectance(incidence), mirrored_up, {x, kHermiteNode[j]}};
         }
     }
     for (Facet& facet : all)
@@ -179,10 +207,14 @@ SeaSurface::Facets SeaSurface::facets(double view_up) const noexcept {
 }
 
 double SeaSurface::mean_reflectance(double view_up) const noexcept {
-    const double place = std::sqrt(std::clamp(view_up, 0.0, 1.0)) * (kNodes - 1);
+    return at_root(reflectance_, view_up);
+}
+
+double SeaSurface::at_root(const std::array<double, kNodes>& nodes, double up) noexcept {
+    const double place = std::sqrt(std::clamp(up, 0.0, 1.0)) * (kNodes - 1);
     const auto low = std::min(static_cast<std::size_t>(place), kNodes - 2);
     const double part = place - static_cast<double>(low);
-    return reflectance_[low] + part * (reflectance_[low + 1] - reflectance_[low]);
+    return nodes[low] + part * (nodes[low + 1] - nodes[low]);
 }
 
 }  // namespace skyig::render::sky

@@ -42,8 +42,10 @@ inline constexpr double kLeastVariance = 3e-4;
 [[nodiscard]] SlopeVariance slope_variance(const Ground& ground, std::span<const Wave> waves) noexcept;
 
 /// Slopes are Gaussian (Cox and Munk's skewness and peakedness are left out), hiding and shadowing are
-/// Smith's (1967) as Ross, Dion and Potier, J. Opt. Soc. Am. A 22 (2005) 2442, use them for the sea: what one
-/// facet turns down to another counts as coming from as high above the level.
+/// Smith's (1967) as Ross, Dion and Potier, J. Opt. Soc. Am. A 22 (2005) 2442, use them for the sea. Skylight
+/// that one facet turns down to another counts as coming from as high above the level. Of a source's light
+/// that meets a second wave, what that one reflects goes up as from a dull surface, more of it onwards than
+/// back.
 ///
 /// Directions are unit vectors from the surface in the plane of view: x away from the eye, y to its right, z
 /// up.
@@ -72,13 +74,15 @@ class SeaSurface {
     struct Facet {
         glm::dvec3 reflected{0.0, 0.0, 1.0};
         double share = 0.0;
+        /// Where it was before it was turned up, sine of the elevation.
+        double mirrored_up = 1.0;
         /// Of its slope, away from the eye and to the right, in units of facet_slope().
         glm::dvec2 deviation{0.0};
     };
     static constexpr std::size_t kFacets = 24;
     using Facets = std::array<Facet, kFacets>;
-    /// Quadrature over the facets that the eye sees, wind and waves taken as without direction. Shares sum to
-    /// the mean reflectance.
+    /// Quadrature over the facets that are seen from there, also from below the level; wind and waves taken
+    /// as without direction. Shares sum to the mean reflectance.
     [[nodiscard]] Facets facets(double view_up) const noexcept;
 
     /// Root mean square of the facets' slope each way.
@@ -92,10 +96,16 @@ class SeaSurface {
     [[nodiscard]] double per_density(double view_up, double view_azimuth_rad, const glm::dvec3& source,
                                      const glm::dvec2& slope) const noexcept;
 
+    /// Of light from `source_up`, what leaves the sea by way of a second wave.
+    [[nodiscard]] double sent_on(double source_up) const noexcept;
+
     static constexpr std::size_t kNodes = 33;  // over the root of view_up
     SlopeVariance variance_;
     double determinant_ = 0.0;
+    [[nodiscard]] static double at_root(const std::array<double, kNodes>& nodes, double up) noexcept;
+    [[nodiscard]] double second_reflectance(double view_up) const noexcept;
     std::array<double, kNodes> reflectance_{};
+    std::array<double, kNodes> sent_on_{};  // as reflectance_, of a source
 };
 
 }  // namespace skyig::render::sky
