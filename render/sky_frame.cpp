@@ -107,13 +107,13 @@ void SkyFrame::refresh_sea(const Scene& scene, double pixel_rad) {
     plan_waves(plan_, scene, waves_, lit);
     const double height_m = sky::height_above_sea_m(scene);
     const int rows = plan_.needs(Pass::kWaves) ? SeaMesh::rows(dome_, waves_, height_m, pixel_rad) : 0;
-    const sky::SlopeVariance variance = sky::slope_variance(scene.ground, scene.sea.all_waves());
+    const sky::SlopeVariance variance =
+        sky::roughened(sky::slope_variance(scene.ground, scene.sea.all_waves()));
     sea_shading_ = {height_m,
                     0.5 / (kEarthRadius_m * height_m),
                     pixel_rad,
                     direction_of(light_.glittering().source),
-                    {variance.east_east + sky::kLeastVariance, variance.north_north + sky::kLeastVariance,
-                     variance.east_north}};
+                    {variance.east_east, variance.north_north, variance.east_north}};
     const bool laid = rows > 0 && (rows != sea_rows_ || sea_light_seen_ != light_revision_);
     if (laid) {
         sea_.lay_out(dome_, light_, mesh_azimuth_rad_, rows);

@@ -91,34 +91,32 @@ SlopeVariance slope_variance(const Ground& ground, std::span<const Wave> waves) 
     return sum;
 }
 
-SeaSurface::SeaSurface(const SlopeVariance& variance) noexcept : variance_(variance) {
-    variance_.east_east += kLeastVariance;
-    variance_.north_north += kLeastVariance;
+SlopeVariance roughened(const SlopeVariance& variance) noexcept {
+    constexpr double kLeast = 3e-4;
+    return {variance.east_east + kLeast, variance.north_north + kLeast, variance.east_north};
+}
+
+SeaSurface::SeaSurface(const SlopeVariance& variance) noexcept : variance_(roughened(variance)) {
     determinant_ = variance_.east_east * variance_.north_north - variance_.east_north * variance_.east_north;
+    std::array<double, kNodes> from_below{};
     for (std::size_t k = 0; k < kNodes; ++k) {
-        const double root = static_cast<double>(k) / (kNodes - 1);
-        for (const Facet& facet : facets(root * root))
+        const double up = up_of(k);
+        for (const Facet& facet : facets(up))
             reflectance_[k] += facet.share;
+        for (const Facet& facet : facets(-up))
+            from_below[k] += facet.share;
     }
     const double slope = facet_slope();
     for (std::size_t k = 0; k < kNodes; ++k) {
-        const double root = std::max(1.0, static_cast<double>(k)) / (kNodes - 1);
-        const double hidden = hidden_up(root * root, slope) / (root * root);
-        for (const Facet& facet : facets(root * root)) {
+        const double source_up = up_of(std::max<std::size_t>(k, 1));
+        const double shadowed = 1.0 + hidden_up(source_up, slope) / source_up;
+        for (const Facet& facet : facets(source_up)) {
             const double up = facet.mirrored_up;
-            const double leaves =
-                up > 0.0 ? (1.0 + hidden) / (1.0 + hidden + hidden_up(up, slope) / up) : 0.0;
-            sent_on_[k] += facet.share * (1.0 - leaves) * second_reflectance(-up);
+            const double leaves = up > 0.0 ? shadowed / (shadowed + hidden_up(up, slope) / up) : 0.0;
+            const double second = at_root(up > 0.0 ? from_below : reflectance_, std::abs(up));
+            sent_on_[k] += facet.share * (1.0 - leaves) * second;
         }
     }
-}
-
-double SeaSurface::second_reflectance(double view_up) const noexcept {
-    if (view_up >= 0.0) return mean_reflectance(view_up);
-    double sum = 0.0;
-    for (const Facet& facet : facets(view_up))
-        sum += facet.share;
-    return sum;
 }
 
 double SeaSurface::sent_on(double source_up) const noexcept {
@@ -208,6 +206,11 @@ SeaSurface::Facets SeaSurface::facets(double view_up) const noexcept {
 
 double SeaSurface::mean_reflectance(double view_up) const noexcept {
     return at_root(reflectance_, view_up);
+}
+
+double SeaSurface::up_of(std::size_t node) noexcept {
+    const double root = static_cast<double>(node) / (kNodes - 1);
+    return root * root;
 }
 
 double SeaSurface::at_root(const std::array<double, kNodes>& nodes, double up) noexcept {

@@ -32,14 +32,15 @@ struct SlopeVariance {
 /// H / L, H / L at most 0.142 (Michell 1893: then it breaks). 0 for what is no wave.
 [[nodiscard]] double wave_slope(const Wave& wave) noexcept;
 
-/// Without wind the sea is smooth along it: a slope of 1 deg always is left, each way.
-inline constexpr double kLeastVariance = 3e-4;
-
 /// Wind: clean surface of Cox and Munk, J. Opt. Soc. Am. 44 (1954) 838: 0.00316 W along it, 0.003 + 0.00192 W
 /// across, and half their sum each way below the wind where the lines cross (2.4 m/s); W in m/s at 12.5 m,
 /// here 0..25 (measured to 14; what is not finite counts as 0). Waves: half the square of wave_slope() along
 /// their way.
 [[nodiscard]] SlopeVariance slope_variance(const Ground& ground, std::span<const Wave> waves) noexcept;
+
+/// As surfaces are drawn: without wind the sea is smooth along it, but a slope of 1 deg always is left, each
+/// way.
+[[nodiscard]] SlopeVariance roughened(const SlopeVariance& variance) noexcept;
 
 /// Slopes are Gaussian (Cox and Munk's skewness and peakedness are left out), hiding and shadowing are
 /// Smith's (1967) as Ross, Dion and Potier, J. Opt. Soc. Am. A 22 (2005) 2442, use them for the sea. Skylight
@@ -52,6 +53,7 @@ inline constexpr double kLeastVariance = 3e-4;
 class SeaSurface {
   public:
     SeaSurface() noexcept : SeaSurface(SlopeVariance{}) {}
+    /// Of slopes roughened(); 0.2 ms.
     explicit SeaSurface(const SlopeVariance& variance) noexcept;
 
     [[nodiscard]] const SlopeVariance& variance() const noexcept { return variance_; }
@@ -102,8 +104,8 @@ class SeaSurface {
     static constexpr std::size_t kNodes = 33;  // over the root of view_up
     SlopeVariance variance_;
     double determinant_ = 0.0;
+    [[nodiscard]] static double up_of(std::size_t node) noexcept;
     [[nodiscard]] static double at_root(const std::array<double, kNodes>& nodes, double up) noexcept;
-    [[nodiscard]] double second_reflectance(double view_up) const noexcept;
     std::array<double, kNodes> reflectance_{};
     std::array<double, kNodes> sent_on_{};  // as reflectance_, of a source
 };

@@ -144,10 +144,11 @@ const AirTables& sea_air() {
 }
 
 SeaUnderTest sea_under_test(const Scene& scene, double source_deg) {
-    const SlopeVariance v = slope_variance(scene.ground, scene.sea.all_waves());
-    SeaUnderTest sea{SeaSurface(v),
+    const SlopeVariance told = slope_variance(scene.ground, scene.sea.all_waves());
+    const SlopeVariance v = roughened(told);
+    SeaUnderTest sea{SeaSurface(told),
                      {},
-                     {v.east_east + kLeastVariance, v.north_north + kLeastVariance, v.east_north},
+                     {v.east_east, v.north_north, v.east_north},
                      {0.0, std::cos(source_deg * kDegree), std::sin(source_deg * kDegree)}};
     sea.view.begin(sea_air(), sea.surface, scene.eye.height_m, source_deg * kDegree);
     sea.view.build_rows(SeaView::kRows);
