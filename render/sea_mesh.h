@@ -33,18 +33,20 @@ class SeaMesh {
     [[nodiscard]] static int rows(const Dome& dome, const sky::SeaWaves& waves, double height_m,
                                   double pixel_rad) noexcept;
 
-    /// Allocates for the largest dome; nothing later does.
-    SeaMesh();
+    /// Allocates for the largest dome; nothing later does. \param screens  as the dome's
+    explicit SeaMesh(std::size_t screens = 1);
 
     /// \param azimuth_rad  of the dome's mesh in this frame; \param rows  of quads
     void lay_out(const Dome& dome, const SkyLight& light, double azimuth_rad, int rows);
     /// Takes over the dome's colours alone. Precondition: laid out for this dome.
     void colour(const Dome& dome) noexcept;
 
-    [[nodiscard]] std::span<const SeaVertex> vertices() const noexcept { return vertices_; }
+    [[nodiscard]] std::span<const SeaVertex> vertices(std::size_t screen = 0) const noexcept {
+        return vertices_[screen];
+    }
 
   private:
-    std::vector<SeaVertex> vertices_;
+    std::vector<std::vector<SeaVertex>> vertices_;  // by screen
 };
 
 }  // namespace skyig::render

@@ -1,12 +1,11 @@
 #include "render/sea_pass.h"
 
-#include "render/eye/tone_curve.h"
+#include <initializer_list>
 
 namespace skyig::render {
 
-SeaPass::SeaPass()
+SeaPass::SeaPass(std::size_t screens)
     : program_("sky/sea.vert", "sky/sea.frag"),
-      mesh_({3, 3, 3, 3, 3, 3, 3, 3, 3}, SeaMesh::kMaxVertices),
       tone_(program_, true),
       clip_(program_.uniform("u_clip_from_mesh")),
       enu_(program_.uniform("u_enu_from_mesh")),
@@ -19,21 +18,23 @@ SeaPass::SeaPass()
       source_(program_.uniform("u_source_enu")),
       variance_(program_.uniform("u_variance")),
       phases_(program_.uniform("u_wave_phase")),
-      shapes_(program_.uniform("u_wave_shape")) {}
+      shapes_(program_.uniform("u_wave_shape")) {
+    for (std::size_t i = 0; i < screens; ++i)
+        meshes_.emplace_back(std::initializer_list<int>{3, 3, 3, 3, 3, 3, 3, 3, 3}, SeaMesh::kMaxVertices);
+}
 
 void SeaPass::prepare(const SkyFrame& frame, bool dither) {
-    if (vertices_revision_ != frame.sea_revision()) {
-        const auto vertices = frame.sea().vertices();
-        mesh_.update(
+    for (std::size_t screen = 0; screen < meshes_.size(); ++screen) {
+        if (triangles_revision_ != frame.triangles_revision())
+            meshes_[screen].set_indices(frame.dome().indices());
+        if (vertices_revision_ == frame.sea_revision()) continue;
+        const auto vertices = frame.sea().vertices(screen);
+        meshes_[screen].update(
             {reinterpret_cast<const float*>(vertices.data()), vertices.size_bytes() / sizeof(float)});
-        vertices_revision_ = frame.sea_revision();
     }
-    if (triangles_revision_ != frame.triangles_revision()) {
-        mesh_.set_indices(frame.dome().indices());
-        triangles_revision_ = frame.triangles_revision();
-    }
+    vertices_revision_ = frame.sea_revision();
+    triangles_revision_ = frame.triangles_revision();
     const SeaShading& shading = frame.sea_shading();
-    tone_.set(program_, eye::single_precision(frame.tone()));
     program_.set(enu_, glm::mat4{frame.enu_from_mesh()});
     program_.set(share_, static_cast<float>(frame.dome().share()));
     program_.set(dither_, dither ? 1.0F : 0.0F);
@@ -51,13 +52,14 @@ void SeaPass::prepare(const SkyFrame& frame, bool dither) {
     }
 }
 
-void SeaPass::draw(const Channel& channel, const glm::dmat4& clip_from_mesh,
-                   std::span<const IndexRange> ranges) const {
+void SeaPass::draw(const Channel& channel, std::size_t screen, const shaders32::ToneParameters& tone,
+                   const glm::dmat4& clip_from_mesh, std::span<const IndexRange> ranges) const {
     program_.use();
+    tone_.set(program_, tone);
     program_.set(clip_, glm::mat4{clip_from_mesh});
     program_.set(half_size_, 0.5F * glm::vec2{channel.width_px, channel.height_px});
     for (const IndexRange& range : ranges)
-        mesh_.draw_triangles(range.first, range.count);
+        meshes_[screen].draw_triangles(range.first, range.count);
 }
 
 }  // namespace skyig::render

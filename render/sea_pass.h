@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 #include "render/channel.h"
 #include "render/discs.h"
@@ -15,18 +16,18 @@ namespace skyig::render {
 
 class SeaPass {
   public:
-    /// \throws std::runtime_error when the program cannot be made
-    SeaPass();
+    /// \param screens  as the frame's \throws std::runtime_error when the program cannot be made
+    explicit SeaPass(std::size_t screens);
 
     /// Once a frame that has rows of sea, after SkyFrame::prepare().
     void prepare(const SkyFrame& frame, bool dither);
     /// Into the framebuffer that is bound, without blending. \param ranges  of the dome's indices
-    void draw(const Channel& channel, const glm::dmat4& clip_from_mesh,
-              std::span<const IndexRange> ranges) const;
+    void draw(const Channel& channel, std::size_t screen, const shaders32::ToneParameters& tone,
+              const glm::dmat4& clip_from_mesh, std::span<const IndexRange> ranges) const;
 
   private:
     gl::Program program_;
-    gl::Mesh mesh_;
+    std::vector<gl::Mesh> meshes_;  // by screen
     ToneUniforms tone_;
     int clip_, enu_, share_, half_size_, dither_, height_, curvature_, pixel_, source_, variance_, phases_,
         shapes_;
