@@ -240,6 +240,11 @@ void Dome::encode_one(const std::vector<glm::vec3>& light, const shaders32::Tone
                       std::vector<DomeVertex>& vertices, glm::vec3 DomeVertex::*out) {
     for (std::size_t i = 0; i < light.size(); ++i)
         codes_[i] = shaders32::shown(light[i], tone);
+    if (shaders32::stores_luminance(tone)) {
+        for (std::size_t i = 0; i < light.size(); ++i)
+            vertices[i].*out = codes_[i];
+        return;
+    }
     std::size_t i = 0;
     for (std::size_t row = 0; row < rows_.size(); ++row) {
         for (std::size_t column = 0; column < stride(); ++column, ++i)

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -265,6 +267,24 @@ TEST(Skyig, ShotDrawsEveryChannelOfASite) {
     EXPECT_EQ(png_size(site.scratch.file("night_left.png")), std::make_pair(32U, 24U));
     EXPECT_EQ(png_size(site.scratch.file("night_right.png")), std::make_pair(40U, 24U));
     EXPECT_THAT(finished.out, HasSubstr("Moon "));
+}
+
+TEST(Skyig, ShotWritesTheLightOfEveryPixelBesideThePicture) {
+    const Site site;
+    const std::string light = site.scratch.file("light.pfm");
+    const Finished finished =
+        skyig({"shot", "--utc", "2026-06-21T22:00:00Z", "--width", "48", "--height", "32", "--out",
+               site.scratch.file("light.png"), "--luminance", light, "--json"});
+    ASSERT_EQ(finished.status, 0) << finished.err;
+    EXPECT_EQ(Json::parse(finished.out).at("pictures").at(0).at("luminance"), light);
+    std::ifstream file(light, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    const std::string heading = "PF\n48 32\n-1.0\n";
+    ASSERT_EQ(bytes.size(), heading.size() + std::size_t{48} * 32 * 3 * sizeof(float));
+    EXPECT_EQ(bytes.substr(0, heading.size()), heading);
+    expect_failure(skyig({"shot", "--width", "8", "--height", "8", "--out", site.scratch.file("x.png"),
+                          "--luminance", "no/such/directory/x.pfm"}),
+                   "no/such/directory/x.pfm");
 }
 
 TEST(Skyig, ShotThatCannotBeWrittenIsStatusOne) {
