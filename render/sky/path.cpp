@@ -80,9 +80,20 @@ double crowding(const Ray& ray, double low_m, double length_m, int count) {
     return std::clamp(std::log(length_m / first_m) / std::log(static_cast<double>(count)), 1.2, 4.0);
 }
 
-// Steps between two distances, `low_m` being the end at the lower height.
+// In thick air little is seen of what lies beyond some free paths.
+bool hides_its_end(const Ray& ray, double near_m, double far_m) {
+    constexpr double kHidingDepth = 6.0;
+    return depth_per_m(ray.data, ray.data.densities(ray.height_m(near_m))) * (far_m - near_m) > kHidingDepth;
+}
+
+// Steps between two distances, `low_m` being the end at the lower height: there they crowd, unless thick air
+// hides it.
 void add_steps(const Ray& ray, double low_m, double high_m, int count, Path& path) {
     const bool rising = high_m >= low_m;
+    if (!rising && hides_its_end(ray, high_m, low_m)) {
+        add_steps(ray, high_m, low_m, count, path);
+        return;
+    }
     const double power = crowding(ray, low_m, std::abs(high_m - low_m), count);
     const auto boundary_m = [&](int i) {
         const double s = static_cast<double>(rising ? i : count - i) / count;

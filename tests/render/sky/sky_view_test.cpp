@@ -155,6 +155,26 @@ TEST(SkyView, SplitsAtTheGeometricHorizon) {
     }
 }
 
+TEST(SkyView, TheHorizonIsNoLineInThickHaze) {
+    render::Air haze;
+    haze.visibility_m = 3000.0;
+    const AirTables tables(air_model(haze));
+    SkyView view;
+    double largest = 0.0;
+    for (const double height_m : {30.0, 200.0, 600.0, 1500.0}) {
+        view.begin(tables, height_m, 45.0 * kDeg);
+        view.build_all();
+        const auto horizon = static_cast<float>(view.horizon_elevation_rad());
+        for (const float azimuth : {0.0F, 1.5F, 3.1F}) {
+            const float above = view.xyz_above(horizon + 1e-4F, azimuth).y;
+            const float below = view.xyz_below(horizon - 1e-4F, azimuth).y;
+            largest = std::max(largest, static_cast<double>(std::abs(above / below - 1.0F)));
+        }
+    }
+    std::printf("sky above the horizon against ground below it, 3 km: %.2f %%\n", 100.0 * largest);
+    EXPECT_LT(largest, 0.004);
+}
+
 TEST(SkyView, SpaceIsBlack) {
     SkyView view;
     for (const double height_m : {120.001e3, 400.0e3, 3.6e7}) {
