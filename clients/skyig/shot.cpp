@@ -53,8 +53,11 @@ std::string picture_path(const std::string& out_path, const config::Config& conf
 Picture write_picture(server::GlPainter& painter, const ShotOptions& options, const config::Config& config,
                       std::size_t channel) {
     const config::Channel& settings = config.channels[channel];
-    Picture picture{settings.name, picture_path(options.out_path, config, channel), settings.width_px,
-                    settings.height_px, {}};
+    Picture picture{settings.name,
+                    picture_path(options.out_path, config, channel),
+                    settings.width_px,
+                    settings.height_px,
+                    {}};
     std::vector<std::byte> rgba(static_cast<std::size_t>(picture.width_px) *
                                 static_cast<std::size_t>(picture.height_px) * 4);
     painter.read_back(channel, rgba);

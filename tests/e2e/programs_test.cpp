@@ -228,6 +228,26 @@ TEST(Skyig, NumbersThatAreNotFiniteAreWrongUsage) {
     }
 }
 
+TEST(Skyig, ToneTellsALineOfJsonForEachLuminance) {
+    const Finished finished =
+        skyig({"tone", "--operator", "tumblin", "--adaptation", "0.001", "--display-max", "100",
+               "--display-adaptation", "50", "--ambient", "1", "--gamma", "2.2", "0.001", "0", "inf"});
+    ASSERT_EQ(finished.status, 0) << finished.err;
+    std::vector<Json> lines;
+    std::size_t begin = 0;
+    for (std::size_t end = 0; (end = finished.out.find('\n', begin)) != std::string::npos; begin = end + 1)
+        lines.push_back(Json::parse(finished.out.substr(begin, end - begin)));
+    ASSERT_EQ(lines.size(), 3U);
+    // A row of tests/data/eye/tumblin_rushmeier.csv.
+    EXPECT_EQ(lines[0].at("luminance"), 0.001);
+    EXPECT_NEAR(lines[0].at("display_cd_m2").get<double>(), 9.575193389, 1e-3);
+    EXPECT_NEAR(lines[0].at("n").get<double>(), 0.327424275, 1e-4);
+    EXPECT_EQ(lines[0].at("code8"), 83);
+    EXPECT_EQ(lines[1].at("code8"), 0);
+    EXPECT_TRUE(lines[2].at("luminance").is_null());
+    EXPECT_EQ(lines[2].at("code8"), 255);
+}
+
 TEST(Skyig, FlightErrorsNameFileAndLine) {
     const Site site;
     const std::string csv = site.scratch.write(
