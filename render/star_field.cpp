@@ -46,6 +46,11 @@ bool apart(const glm::dvec3& a, const glm::dvec3& b, double angle_rad) {
     return glm::dot(a - b, a - b) > angle_rad * angle_rad;
 }
 
+bool turned(const glm::dmat3& now, const glm::dmat3& held, double angle_rad) {
+    return apart(now[0], held[0], angle_rad) || apart(now[1], held[1], angle_rad) ||
+           apart(now[2], held[2], angle_rad);
+}
+
 bool differs(const StarPlan& a, const StarPlan& b) {
     constexpr double kStep_mag = 0.02;
     return std::abs(a.limit_mag - b.limit_mag) > kStep_mag || a.seen_only != b.seen_only ||
@@ -85,6 +90,7 @@ StarField::StarField() {
                      [](const Source& a, const Source& b) { return a.magnitude < b.magnitude; });
     stars_.resize(sources_.size() + kPlanetCount);
     twinkles_.resize(stars_.size());
+    backgrounds_.resize(stars_.size());
     air_.resize(kAirSteps);
 }
 
@@ -92,6 +98,7 @@ struct StarField::Frame {
     const SkyLight& light;
     float lowest_sine;  // airless, of what is seen on the horizon
     float intensity;
+    float least_lux;  // of the faintest that is seen before the darkest sky
     bool seen_only;
     glm::vec3 moon_enu;
     float moon_chord;  // 0: the Moon covers nothing
@@ -118,17 +125,19 @@ StarField::Made StarField::made_of(const Scene& scene, const SkyFrame& frame) no
     return made;
 }
 
+bool StarField::light_is_stale(const Made& now) const noexcept {
+    const Made& held = made_;
+    return !held.valid || now.tables != held.tables || now.air_in_use != held.air_in_use ||
+           moved(now.sun_scale, held.sun_scale) || moved(now.moon_scale, held.moon_scale) ||
+           sky::height_is_stale(now.height_m, held.height_m) || !(now.air == held.air);
+}
+
 bool StarField::is_stale(const Made& now, double pixel_rad) const noexcept {
     const Made& held = made_;
     const double step_rad = 0.1 * pixel_rad;
-    if (!held.valid || now.tables != held.tables || now.air_in_use != held.air_in_use ||
-        moved(now.sun_scale, held.sun_scale) || moved(now.moon_scale, held.moon_scale) ||
-        sky::height_is_stale(now.height_m, held.height_m) || !(now.air == held.air) ||
-        differs(now.plan, held.plan))
+    if (light_is_stale(now) || differs(now.plan, held.plan) ||
+        turned(now.stars.enu_from_gcrs, held.stars.enu_from_gcrs, step_rad))
         return true;
-    for (int i = 0; i < 3; ++i) {
-        if (apart(now.stars.enu_from_gcrs[i], held.stars.enu_from_gcrs[i], step_rad)) return true;
-    }
     constexpr double kYears = 0.01;
     if (now.stars.intensity != held.stars.intensity ||
         apart(now.stars.earth_velocity_c, held.stars.earth_velocity_c, step_rad) ||
@@ -168,14 +177,24 @@ StarField::Air StarField::air_at(float sine, float lowest_sine) const noexcept {
             glm::mix(a.twinkle_rms, b.twinkle_rms, share)};
 }
 
+const glm::vec3& StarField::background(const glm::vec3& seen_enu, std::uint32_t source,
+                                       const Frame& frame) noexcept {
+    Background& background = backgrounds_[source];
+    if (background.made != backgrounds_due_) {
+        const Horizontal at = horizontal_of(glm::dvec3{seen_enu});
+        background = {frame.light.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kSky), backgrounds_due_};
+    }
+    return background.cd_m2;
+}
+
 void StarField::add(const glm::vec3& direction_enu, const Light& source, const Frame& frame) noexcept {
     const glm::vec3 from_moon = direction_enu - frame.moon_enu;
     if (glm::dot(from_moon, from_moon) < frame.moon_chord * frame.moon_chord) return;
     const Air air = air_at(direction_enu.z, frame.lowest_sine);
     const glm::vec3 seen_enu = lifted(direction_enu, air.lift);
-    const Horizontal at = horizontal_of(glm::dvec3{seen_enu});
-    const glm::vec3 behind = frame.light.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kSky);
     glm::vec3 lux = source.illuminance_lux * air.transmittance * frame.intensity;
+    if (shaders32::luminance_709(lux) < frame.least_lux) return;
+    const glm::vec3& behind = background(seen_enu, source.source, frame);
     if (frame.seen_only) {
         const float share = seen_share(shaders32::luminance_709(lux), shaders32::luminance_709(behind));
         if (!(share > 0.0F)) return;
@@ -187,12 +206,15 @@ void StarField::add(const glm::vec3& direction_enu, const Light& source, const F
 
 void StarField::rebuild(const Scene& scene, const SkyFrame& frame) {
     const StarPlan& plan = frame.plan().stars;
-    tabulate_air(frame, scene.eye.height_m);
     const double moon_chord = scene.moon.enabled ? 2.0 * std::sin(0.5 * scene.moon.angular_radius_rad) : 0.0;
     const double lowest_sine = std::sin(frame.light().refraction.setting_elevation_rad());
-    const Frame now{
-        frame.light(),  static_cast<float>(lowest_sine),     static_cast<float>(scene.stars.intensity),
-        plan.seen_only, glm::vec3{scene.moon.direction_enu}, static_cast<float>(moon_chord)};
+    const Frame now{.light = frame.light(),
+                    .lowest_sine = static_cast<float>(lowest_sine),
+                    .intensity = static_cast<float>(scene.stars.intensity),
+                    .least_lux = static_cast<float>(night::star_illuminance_lux(plan.limit_mag)),
+                    .seen_only = plan.seen_only,
+                    .moon_enu = glm::vec3{scene.moon.direction_enu},
+                    .moon_chord = static_cast<float>(moon_chord)};
     const auto twinkle = [&](double magnitude, double factor) {
         return plan.twinkle && magnitude < plan.twinkle_limit_mag ? static_cast<float>(factor) : 0.0F;
     };
@@ -236,6 +258,13 @@ bool StarField::update(const Scene& scene, const SkyFrame& frame, double pixel_r
     const Made now = made_of(scene, frame);
     const bool stale = is_stale(now, pixel_rad);
     if (stale) {
+        constexpr double kHalfDegree = 0.0087;
+        const bool new_light = light_is_stale(now);
+        if (new_light) tabulate_air(frame, scene.eye.height_m);
+        if (new_light || turned(now.stars.enu_from_gcrs, backgrounds_turn_, kHalfDegree)) {
+            ++backgrounds_due_;
+            backgrounds_turn_ = now.stars.enu_from_gcrs;
+        }
         rebuild(scene, frame);
         made_ = now;
     }

@@ -94,7 +94,10 @@ class StarField {
         double moon_radius_rad = 0.0;  // 0: switched off
     };
 
+    [[nodiscard]] bool light_is_stale(const Made& now) const noexcept;
     [[nodiscard]] bool is_stale(const Made& now, double pixel_rad) const noexcept;
+    [[nodiscard]] const glm::vec3& background(const glm::vec3& seen_enu, std::uint32_t source,
+                                              const Frame& frame) noexcept;
     [[nodiscard]] static Made made_of(const Scene& scene, const SkyFrame& frame) noexcept;
     void tabulate_air(const SkyFrame& frame, double eye_height_m);
     [[nodiscard]] Air air_at(float sine, float lowest_sine) const noexcept;
@@ -106,6 +109,14 @@ class StarField {
     std::vector<StarVertex> stars_;
     std::vector<Twinkle> twinkles_;  // of the first stars_
     std::vector<Air> air_;
+    /// Behind each source, worked out when the light changes and when the sky has turned by half a degree.
+    struct Background {
+        glm::vec3 cd_m2{0.0F};
+        std::uint64_t made = 0;  // 0: never
+    };
+    std::vector<Background> backgrounds_;
+    std::uint64_t backgrounds_due_ = 0;
+    glm::dmat3 backgrounds_turn_{0.0};
     Made made_;
     std::size_t count_ = 0;
     std::size_t twinkling_ = 0;

