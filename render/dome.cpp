@@ -198,7 +198,7 @@ void Dome::look_up(const SkyLight& light, double azimuth_rad, Change change) {
     for (const Row& row : rows_) {
         const double elevation = light.horizon_elevation_rad + row.above_horizon_rad;
         for (const double azimuth : azimuths_rad_) {
-            const glm::vec3 rgb = light.rgb_cd_m2(elevation, azimuth_rad + azimuth, row.side);
+            const glm::vec3 rgb = light.smooth_rgb_cd_m2(elevation, azimuth_rad + azimuth, row.side);
             if (shift) from_[out] += rgb - to_[out];
             to_[out++] = rgb;
         }
@@ -270,7 +270,8 @@ double Dome::split_quads(const SkyLight& light, double azimuth_rad, const shader
         for (std::size_t column = 0; column + 1 < stride(); ++column, ++quad, ++code) {
             if (low.side != high.side) continue;
             const double azimuth = azimuth_rad + 0.5 * (azimuths_rad_[column] + azimuths_rad_[column + 1]);
-            const glm::vec3 middle = shaders32::shown(light.rgb_cd_m2(elevation, azimuth, low.side), tone32);
+            const glm::vec3 middle =
+                shaders32::shown(light.smooth_rgb_cd_m2(elevation, azimuth, low.side), tone32);
             const float falling = largest_of(glm::abs(0.5F * (code[1] + code[stride()]) - middle));
             const float rising = largest_of(glm::abs(0.5F * (code[0] + code[stride() + 1]) - middle));
             rising_[quad] = rising < falling ? 1 : 0;

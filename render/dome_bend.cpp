@@ -150,8 +150,8 @@ void DomeBend::measure(const SkyLight& light, const shaders64::ToneParameters& t
     const auto tone32 = eye::single_precision(tone);
     const double horizon = light.horizon_elevation_rad;
     const auto code = [&](double above_rad, double azimuth, Side side) {
-        return 255.0 *
-               glm::dvec3{shaders32::shown(light.rgb_cd_m2(horizon + above_rad, azimuth, side), tone32)};
+        return 255.0 * glm::dvec3{shaders32::shown(light.smooth_rgb_cd_m2(horizon + above_rad, azimuth, side),
+                                                   tone32)};
     };
     const auto along = [&](BendProfile& profile, double low_rad, double high_rad, Side side) {
         profile.clear();
@@ -181,14 +181,16 @@ void DomeBend::measure(const SkyLight& light, const shaders64::ToneParameters& t
 void DomeBend::measure_columns(const SkyLight& light, const shaders32::ToneParameters& tone,
                                double azimuth_rad, double edge_rad) {
     const double horizon = light.horizon_elevation_rad;
-    const bool mirrored = light.sun.view == nullptr || light.moon.view == nullptr;
+    const bool two_sources = light.sun.view != nullptr && light.moon.view != nullptr;
+    // The dark sky has its own symmetry.
+    const bool mirrored = !two_sources && light.night == nullptr;
     const double second = light.moon.source.azimuth_rad - light.sun.source.azimuth_rad;
     columns_.clear();
     const auto x = columns_.positions_rad();
-    spread_columns(x, mirrored ? std::nullopt : std::optional(second));
+    spread_columns(x, two_sources ? std::optional(second) : std::nullopt);
     const std::size_t first = mirrored ? x.size() / 2 - 1 : 0;
     const auto code = [&](double above_rad, std::size_t i, Side side) {
-        const glm::vec3 rgb = light.rgb_cd_m2(horizon + above_rad, azimuth_rad + x[i], side);
+        const glm::vec3 rgb = light.smooth_rgb_cd_m2(horizon + above_rad, azimuth_rad + x[i], side);
         return 255.0 * glm::dvec3{shaders32::shown(rgb, tone)};
     };
     for (const double above : kCircles_rad) {

@@ -185,6 +185,7 @@ void LightTables::update(const Scene& scene, const Plan& plan) {
                        sun_trend_.ahead(sky::source_step_rad(sun_rad)), height_m, height_ahead_m});
     update_view(moon_, {plan.needs(Pass::kMoonSky), plan.moon_share > 0.0, false, moon_rad,
                         moon_trend_.ahead(sky::source_step_rad(moon_rad)), height_m, height_ahead_m});
+    if (plan.needs(Pass::kNightSky) && night_.update(scene, *air_)) ++revision_;
 }
 
 SkyLight LightTables::light(const Scene& scene, const Plan& plan,
@@ -199,6 +200,10 @@ SkyLight LightTables::light(const Scene& scene, const Plan& plan,
         albedo -= air_->model().ground_mirror_albedo;
     light.ground_albedo = sky::luminous_albedo(air_->model(), diffuse);
     light.sea = sea_ ? &*sea_ : nullptr;
+    if (plan.needs(Pass::kNightSky)) {
+        light.night = &night_;
+        light.night_share = static_cast<float>(plan.night_share);
+    }
     const auto reflected = [](const View& view) { return view.front_made.sea ? &view.front_sea : nullptr; };
     if (plan.sun_share > 0.0 && sun_.front_made.air != 0) {
         const double unobscured = std::max(scene.sun.unobscured, kFromBeyondShadow);

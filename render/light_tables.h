@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "render/air_builder.h"
+#include "render/night/night_sky.h"
 #include "render/plan.h"
 #include "render/scene.h"
 #include "render/sky/air_tables.h"
@@ -131,6 +132,7 @@ class LightTables {
 
     View sun_;
     View moon_;
+    night::NightSky night_;
     std::uint64_t revision_ = 0;
     bool jumped_ = false;
 };

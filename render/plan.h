@@ -60,6 +60,8 @@ struct Plan {
     /// longer counts.
     double sun_share = 0.0;
     double moon_share = 0.0;
+    /// How much of the dark sky is drawn, 0..1.
+    double night_share = 0.0;
     /// How much of the corona is drawn, 0..1: the last of the Sun's disc dazzles.
     double corona_share = 0.0;
     /// Stars of this V magnitude are gone, those 0.8 mag brighter are drawn in full.
@@ -82,8 +84,8 @@ struct Plan {
 [[nodiscard]] double direction_table_error_codes(const sky::SkyViewSize& size) noexcept;
 
 /// \param scene  the frame; \param held  what is in the tables; \param refraction  of the frame's eye and
-/// air. Deterministic: equal input gives an equal plan. Dome and stars are left for plan_dome() and
-/// plan_stars(), which need the light that this plan leads to.
+/// air. Deterministic: equal input gives an equal plan. Dome, stars and the Milky Way are
+/// left for plan_dome(), plan_stars() and plan_milky_way(), which need the light that this plan leads to.
 [[nodiscard]] Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction,
                              const Quality& quality = {}) noexcept;
 
@@ -94,6 +96,10 @@ struct Plan {
 /// Decides on the stars and planets. \param background_cd_m2  the darkest sky that they stand before
 /// \param half_code_mag  fainter ones change no picture
 void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept;
+
+/// Decides on the Milky Way. \param most_codes  what its brightest part would add to the darkest sky, display
+/// codes
+void plan_milky_way(Plan& plan, const Scene& scene, double most_codes) noexcept;
 
 /// Faintest star that a practised eye sees before a background, V magnitude (Schaefer 1990, after Knoll et
 /// al. 1946).

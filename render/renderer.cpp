@@ -11,6 +11,7 @@
 #include "render/gl/framebuffer.h"
 #include "render/gl/mesh.h"
 #include "render/gl/program.h"
+#include "render/milky_way_pass.h"
 #include "render/sky_frame.h"
 #include "render/star_field.h"
 
@@ -107,6 +108,7 @@ struct Renderer::Impl {
     gl::Mesh dome_mesh{{3, 3, 3}, Dome::kMaxVertices};
     std::uint64_t triangles_revision = 0;
     std::uint64_t vertices_revision = 0;
+    MilkyWayPass milky_way;
     StarPass stars;
     Corona corona;
     SunDisc sun_disc;
@@ -135,6 +137,8 @@ void Renderer::Impl::prepare_points_and_discs() {
     const Plan& plan = frame.plan();
     const auto tone32 = eye::single_precision(frame.tone());
     report.stars_drawn = 0;
+    if (frame.light().milky_way.map != nullptr)
+        milky_way.prepare(frame.milky_way(), frame.light(), display.dither);
     if (plan.needs(Pass::kStars)) {
         stars.prepare(scene, frame.air(), frame.light(), frame.tone(), plan.star_limit_mag);
         report.stars_drawn = stars.count();
@@ -198,6 +202,10 @@ void Renderer::draw(std::size_t channel) {
     gl::set_blend(gl::Blend::kReplace);
     m.draw_dome(m.channels[channel], clip_from_enu);
 
+    if (m.frame.light().milky_way.map != nullptr) {
+        gl::set_blend(gl::Blend::kAdd);
+        m.milky_way.draw(m.frame.milky_way(), m.channels[channel], clip_from_enu);
+    }
     if (plan.needs(Pass::kStars)) {
         gl::set_blend(gl::Blend::kAdd);
         m.targets[channel].bind(kStarGuard_px);

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "render/eye/tone_curve.h"
+#include "render/night/natural_light.h"
+#include "render/night/starlight.h"
 #include "render/star_field.h"
 
 namespace skyig::render {
@@ -37,6 +39,7 @@ void SkyFrame::prepare(const Scene& scene, double pixel_rad) {
     tables_.update(scene, plan_);
     light_ = tables_.light(scene, plan_, refraction);
     adapt(scene, pixel_rad);
+    refresh_milky_way(scene);
     refresh_dome(pixel_rad);
     tell_dome();
 }
@@ -55,7 +58,23 @@ void SkyFrame::adapt(const Scene& scene, double pixel_rad) {
     const double now_cd_m2 =
         adaptation_.update(eye::adaptation_target_cd_m2(luminance), scene.time_s, tables_.jumped(), display_);
     tone_ = eye::tone_parameters(display_, now_cd_m2);
+    darkest_sky_cd_m2_ = darkest_sky;
     plan_stars(plan_, scene, darkest_sky, half_code_mag(darkest_sky, tone_, pixel_rad));
+}
+
+// Adaptation leaves the belt out, so that it may depend on what the eye sees at all.
+void SkyFrame::refresh_milky_way(const Scene& scene) {
+    plan_milky_way(plan_, scene, milky_way_most_codes(darkest_sky_cd_m2_, tone_));
+    const bool first = shaded_.tables == 0 || tables_.jumped();
+    if (!plan_.needs(Pass::kMilkyWay) || !milky_way_.make_map(scene.night, first)) {
+        milky_way_shown_ = false;
+        return;
+    }
+    light_.milky_way = {&milky_way_.map(),
+                        night::galactic_from_gcrs() * glm::transpose(scene.stars.enu_from_gcrs),
+                        static_cast<float>(plan_.night_share * night::starlight_share(scene.night))};
+    milky_way_.shade(light_, tone_, first || !milky_way_shown_);
+    milky_way_shown_ = true;
 }
 
 void SkyFrame::refresh_dome(double pixel_rad) {

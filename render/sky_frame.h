@@ -7,6 +7,7 @@
 #include "render/dome.h"
 #include "render/eye/adaptation.h"
 #include "render/light_tables.h"
+#include "render/milky_way.h"
 #include "render/plan.h"
 #include "render/scene.h"
 #include "render/sky_light.h"
@@ -31,6 +32,7 @@ class SkyFrame {
     [[nodiscard]] const LightTables& tables() const noexcept { return tables_; }
     [[nodiscard]] Dome& dome() noexcept { return dome_; }
     [[nodiscard]] const Dome& dome() const noexcept { return dome_; }
+    [[nodiscard]] MilkyWay& milky_way() noexcept { return milky_way_; }
     /// From the dome's mesh, (direction, 1), to the scene.
     [[nodiscard]] glm::dmat4 enu_from_mesh() const noexcept {
         return dome_.enu_from_mesh(mesh_azimuth_rad_, light_.horizon_elevation_rad);
@@ -45,6 +47,7 @@ class SkyFrame {
 
   private:
     void adapt(const Scene& scene, double pixel_rad);
+    void refresh_milky_way(const Scene& scene);
     void refresh_dome(double pixel_rad);
     void tell_dome() noexcept;
 
@@ -54,6 +57,9 @@ class SkyFrame {
     eye::Adaptation adaptation_;
     DomeBend bend_;
     Dome dome_;
+    MilkyWay milky_way_;
+    bool milky_way_shown_ = false;
+    double darkest_sky_cd_m2_ = 0.0;
 
     Plan plan_;
     SkyLight light_;

@@ -1,0 +1,91 @@
+#include "render/milky_way.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/eye/tone_curve.h"
+#include "render/night/natural_light.h"
+#include "render/night/starlight.h"
+#include "render/night/zodiacal_light.h"
+
+namespace skyig::render {
+
+namespace {
+
+constexpr double kBrightest_cd_m2 = 7e-4;
+// The detail's peaks stand about so far above the belt's mean.
+constexpr double kPeak = 2.0;
+constexpr double kFaintest_cd_m2 = 3e-5;
+
+}  // namespace
+
+MilkyWay::MilkyWay() : patches_(kRows, kColumns) {
+    constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+    std::vector<glm::vec3> directions;
+    for (int row = 0; row <= kRows; ++row) {
+        const double latitude_rad = night::kBelt_rad * (2.0 * row / kRows - 1.0);
+        for (int column = 0; column <= kColumns; ++column) {
+            const double longitude_rad = kTurn_rad * column / kColumns;
+            const glm::dvec3 direction{std::cos(latitude_rad) * std::cos(longitude_rad),
+                                       std::cos(latitude_rad) * std::sin(longitude_rad),
+                                       std::sin(latitude_rad)};
+            directions.emplace_back(direction);
+            vertices_.push_back({glm::vec3{direction},
+                                 glm::vec2{night::MilkyWayMap::place(longitude_rad, latitude_rad)},
+                                 glm::vec3{0.0F}, glm::vec3{0.0F}});
+            const double belt = night::starlight_s10(longitude_rad, latitude_rad).belt;
+            brightest_.push_back(std::max(kPeak * night::kS10_cd_m2 * belt, kFaintest_cd_m2));
+        }
+    }
+    patches_.bound(directions);
+}
+
+bool MilkyWay::make_map(const NightSettings& settings, bool at_once) {
+    if (settings.structure != structure_ || settings.seed != seed_ || !map_.begun()) {
+        map_.begin(settings.structure, settings.seed);
+        structure_ = settings.structure;
+        seed_ = settings.seed;
+    }
+    if (map_.complete()) return true;
+    if (!map_.build_rows(at_once ? night::MilkyWayMap::kHeight : night::MilkyWayMap::kRowsAFrame))
+        return false;
+    ++map_revision_;
+    return true;
+}
+
+void MilkyWay::shade(const SkyLight& light, const shaders64::ToneParameters& tone, bool at_once) noexcept {
+    const auto tone32 = eye::single_precision(tone);
+    const glm::dmat3 enu_from_galactic = glm::transpose(light.milky_way.galactic_from_enu);
+    const std::size_t count = at_once ? vertices_.size() : vertices_.size() / kFramesARound + 1;
+    for (std::size_t i = 0; i < count; ++i) {
+        MilkyWayVertex& vertex = vertices_[next_];
+        const double most_cd_m2 = brightest_[next_];
+        next_ = (next_ + 1) % vertices_.size();
+        Horizontal at = horizontal_of(enu_from_galactic * glm::dvec3{vertex.direction});
+        // Below the horizon the strip goes on as at its end, for the triangles that cross it.
+        at.elevation_rad = std::max(at.elevation_rad, light.horizon_elevation_rad);
+        const glm::vec3 behind = light.smooth_rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kSky);
+        const glm::vec3 passes = light.belt_passes(at.elevation_rad);
+        const glm::vec3 code = shaders32::shown(behind, tone32);
+        const double t = night::MilkyWayMap::warped(most_cd_m2);
+        const auto added = [&](double share) {
+            const auto luminance = static_cast<float>(night::MilkyWayMap::unwarped(share * t));
+            return shaders32::shown(behind + luminance * passes, tone32) - code;
+        };
+        const glm::vec3 half = added(0.5);
+        const glm::vec3 whole = added(1.0);
+        const auto t32 = static_cast<float>(t);
+        vertex.linear = (4.0F * half - whole) / t32;
+        vertex.square = 2.0F * (whole - 2.0F * half) / (t32 * t32);
+    }
+}
+
+double milky_way_most_codes(double background_cd_m2, const shaders64::ToneParameters& tone) noexcept {
+    const auto code = [&](double luminance) {
+        return 255.0 * shaders64::shown(glm::dvec3{luminance}, tone).y;
+    };
+    return code(background_cd_m2 + kBrightest_cd_m2) - code(background_cd_m2);
+}
+
+}  // namespace skyig::render
