@@ -11,10 +11,11 @@ namespace skyig::render {
 
 enum class NightModel {
     kSources,  ///< each source by its own law
+    kMean,     ///< airglow by its law, zodiacal light and starlight the same in all directions
     kSeed,     ///< four constants outside the air, no Milky Way
 };
 
-inline constexpr std::array<std::string_view, 2> kNightModelNames{"sources", "seed"};
+inline constexpr std::array<std::string_view, 3> kNightModelNames{"sources", "mean", "seed"};
 
 /// A town whose light the air scatters.
 struct City {

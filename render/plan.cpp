@@ -228,8 +228,8 @@ void plan_milky_way(Plan& plan, const Scene& scene, double most_codes) noexcept 
     constexpr double kLeast_codes = 0.5;
     if (plan.night_share <= 0.0) {
         put(plan, Pass::kMilkyWay, {false, "below half a code: daylight outshines it"});
-    } else if (scene.night.model == NightModel::kSeed) {
-        put(plan, Pass::kMilkyWay, {false, "the seed's night sky has none"});
+    } else if (scene.night.model != NightModel::kSources) {
+        put(plan, Pass::kMilkyWay, {false, "the night sky's model has none"});
     } else if (night::starlight_share(scene.night) <= 0.0) {
         put(plan, Pass::kMilkyWay, {false, "switched off"});
     } else if (most_codes < kLeast_codes) {

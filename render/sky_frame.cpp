@@ -130,4 +130,10 @@ glm::dvec3 SkyFrame::exact_colour(const glm::dvec3& direction_enu) const {
     return shaders64::shown(glm::dvec3{rgb}, tone_);
 }
 
+glm::dvec3 SkyFrame::exact_dome_colour(const glm::dvec3& direction_enu) const {
+    const Horizontal at = horizontal_of(direction_enu);
+    const glm::vec3 rgb = light_.smooth_rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation);
+    return shaders64::shown(glm::dvec3{rgb}, tone_);
+}
+
 }  // namespace skyig::render

@@ -44,6 +44,8 @@ class SkyFrame {
 
     /// The colour that the frame's light and tone curve give for one direction, before dither.
     [[nodiscard]] glm::dvec3 exact_colour(const glm::dvec3& direction_enu) const;
+    /// The same of what the dome carries: without the Milky Way's belt.
+    [[nodiscard]] glm::dvec3 exact_dome_colour(const glm::dvec3& direction_enu) const;
 
   private:
     void adapt(const Scene& scene, double pixel_rad);

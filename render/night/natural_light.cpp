@@ -28,6 +28,14 @@ glm::dvec3 seed_beyond_air(const NightSettings& settings) {
                                 (settings.galactic_light ? kSeedGalactic_cd_m2 : 0.0));
 }
 
+glm::dvec3 mean_beyond_air(const NightSettings& settings) {
+    static const double zodiacal_cd_m2 = kS10_cd_m2 * mean_zodiacal_s10();
+    static const double starlight_cd_m2 = kS10_cd_m2 * mean_starlight_s10();
+    const NaturalColours& colours = natural_colours();
+    return colours.zodiacal * (settings.zodiacal ? zodiacal_cd_m2 : 0.0) +
+           colours.starlight * (starlight_share(settings) * starlight_cd_m2);
+}
+
 glm::dvec3 zodiacal(const NightSettings& settings, const glm::dvec3& direction_gcrs,
                     const glm::dvec3& sun_gcrs) {
     if (!settings.zodiacal) return glm::dvec3{0.0};
@@ -61,6 +69,7 @@ double airglow_zenith_cd_m2(const NightSettings& settings) noexcept {
 glm::dvec3 beyond_air_cd_m2(const NightSettings& settings, const glm::dvec3& direction_gcrs,
                             const glm::dvec3& sun_gcrs) noexcept {
     if (settings.model == NightModel::kSeed) return seed_beyond_air(settings);
+    if (settings.model == NightModel::kMean) return mean_beyond_air(settings);
     return zodiacal(settings, direction_gcrs, sun_gcrs) +
            natural_colours().starlight *
                (kS10_cd_m2 * starlight_share(settings) * starlight_of(direction_gcrs).even);
@@ -68,7 +77,7 @@ glm::dvec3 beyond_air_cd_m2(const NightSettings& settings, const glm::dvec3& dir
 
 glm::dvec3 whole_beyond_air_cd_m2(const NightSettings& settings, const glm::dvec3& direction_gcrs,
                                   const glm::dvec3& sun_gcrs) noexcept {
-    if (settings.model == NightModel::kSeed) return seed_beyond_air(settings);
+    if (settings.model != NightModel::kSources) return beyond_air_cd_m2(settings, direction_gcrs, sun_gcrs);
     const Starlight stars = starlight_of(direction_gcrs);
     return zodiacal(settings, direction_gcrs, sun_gcrs) +
            natural_colours().starlight * (kS10_cd_m2 * starlight_share(settings) * (stars.even + stars.belt));

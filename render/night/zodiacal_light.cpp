@@ -92,24 +92,31 @@ double zodiacal_s10(double longitude_rad, double latitude_rad) noexcept {
 }
 
 double zodiacal_s10(const glm::dvec3& direction_gcrs, const glm::dvec3& sun_gcrs) noexcept {
-    const double c = std::cos(kObliquity_rad);
-    const double s = std::sin(kObliquity_rad);
-    const auto longitude_rad = [&](const glm::dvec3& v) { return std::atan2(c * v.y + s * v.z, v.x); };
-    const double north = c * direction_gcrs.z - s * direction_gcrs.y;
-    return zodiacal_s10(longitude_rad(direction_gcrs) - longitude_rad(sun_gcrs),
-                        std::asin(std::clamp(north, -1.0, 1.0)));
+    static const double c = std::cos(kObliquity_rad);
+    static const double s = std::sin(kObliquity_rad);
+    const double north = std::clamp(c * direction_gcrs.z - s * direction_gcrs.y, -1.0, 1.0);
+    const double level = std::sqrt((1.0 - north) * (1.0 + north));
+    // cos elongation = cos latitude cos longitude, the Sun on the ecliptic.
+    const double cosine = glm::dot(direction_gcrs, sun_gcrs) / std::max(level, 1e-9);
+    return zodiacal_s10(std::acos(std::clamp(cosine, -1.0, 1.0)), std::asin(north));
 }
 
 double mean_zodiacal_s10() noexcept {
     constexpr int kLatitudes = 60;
     constexpr int kLongitudes = 90;
+    const double nearest = std::cos(30.0 * kDegree);
     double sum = 0.0;
+    int count = 0;
     for (int i = 0; i < kLatitudes; ++i) {
         const double latitude_rad = std::asin((i + 0.5) / kLatitudes);
-        for (int j = 0; j < kLongitudes; ++j)
-            sum += zodiacal_s10((j + 0.5) * std::numbers::pi / kLongitudes, latitude_rad);
+        for (int j = 0; j < kLongitudes; ++j) {
+            const double longitude_rad = (j + 0.5) * std::numbers::pi / kLongitudes;
+            if (std::cos(longitude_rad) * std::cos(latitude_rad) > nearest) continue;
+            sum += zodiacal_s10(longitude_rad, latitude_rad);
+            ++count;
+        }
     }
-    return sum / (kLatitudes * kLongitudes);
+    return sum / count;
 }
 
 }  // namespace skyig::render::night
