@@ -20,6 +20,9 @@ void read_status(TableReader& table, Status& status);
 void read_air(TableReader table, Air& air);
 void read_sky(TableReader table, Sky& sky);
 
+/// Reads [night] with its cities.
+void read_night(TableReader table, ErrorList& errors, Night& night);
+
 /// Reads the [[channel]] tables and checks them against one another.
 void read_channels(TableReader& root, ErrorList& errors, std::vector<Channel>& channels);
 

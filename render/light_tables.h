@@ -21,6 +21,9 @@
 
 namespace skyig::render {
 
+/// Factors on X, Y, Z of sunlit air that make it moonlit. \param share  of the light that is drawn
+[[nodiscard]] glm::vec3 moon_scale_xyz(const Moon& moon, const sky::AirModel& model, double share) noexcept;
+
 class LightTables {
   public:
     /// Frames from the first sight of new air to its use, and rows of a direction table built in one frame.
