@@ -35,7 +35,7 @@ struct Night {
     /// 0..2147483647
     int seed = 1;
     /// 0 solar minimum .. 1 maximum.
-    double solar_activity = 0.1;
+    double solar_activity = 0.0;
     /// At most kMaxCities.
     std::vector<City> cities;
 };

@@ -11,8 +11,8 @@ namespace skyig::render {
 
 enum class NightModel {
     kSources,  ///< each source by its own law
-    kMean,     ///< airglow by its law, zodiacal light and starlight the same in all directions
-    kSeed,     ///< four constants outside the air, no Milky Way
+    kMean,  ///< airglow by its law; zodiacal light and starlight at their geometric means in all directions
+    kSeed,  ///< four constants outside the air, no Milky Way
 };
 
 inline constexpr std::array<std::string_view, 3> kNightModelNames{"sources", "mean", "seed"};
@@ -44,7 +44,7 @@ struct NightSettings {
     double structure = 1.0;
     std::uint32_t seed = 1;
     /// 0 solar minimum .. 1 maximum.
-    double solar_activity = 0.1;
+    double solar_activity = 0.0;
 
     std::array<City, kMaxCities> cities{};
     std::size_t city_count = 0;

@@ -29,8 +29,8 @@ glm::dvec3 seed_beyond_air(const NightSettings& settings) {
 }
 
 glm::dvec3 mean_beyond_air(const NightSettings& settings) {
-    static const double zodiacal_cd_m2 = kS10_cd_m2 * mean_zodiacal_s10();
-    static const double starlight_cd_m2 = kS10_cd_m2 * mean_starlight_s10();
+    static const double zodiacal_cd_m2 = kS10_cd_m2 * typical_zodiacal_s10();
+    static const double starlight_cd_m2 = kS10_cd_m2 * typical_starlight_s10();
     const NaturalColours& colours = natural_colours();
     return colours.zodiacal * (settings.zodiacal ? zodiacal_cd_m2 : 0.0) +
            colours.starlight * (starlight_share(settings) * starlight_cd_m2);

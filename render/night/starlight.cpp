@@ -15,16 +15,19 @@ double bell(double x, double width) {
     return std::exp(-0.5 * t * t);
 }
 
-// An exponential disc of stars and dust seen from within, a bulge, and dust before both.
+// An exponential disc of stars and dust seen from within, the bulge, the clouds of Norma and of Aquila, and
+// dust before all.
 double fit_s10(double l_deg, double b_deg) {
     const double l = std::remainder(l_deg, 360.0);
     const double sine = std::abs(std::sin((b_deg + 0.91) * kDegree));
     const double spread = b_deg / 25.0;
-    const double disc = (-21.17 + 55.32 * (1.0 - std::exp(-0.157 / (sine + 0.02))) / 0.157) *
-                        (1.0 - 0.386 * std::cos((l - 151.7) * kDegree) * std::exp(-spread * spread));
-    const double bulge = 179.8 * bell(l, 7.48) * bell(b_deg, 5.63);
-    const double dust = 1.0 - 0.533 * bell(b_deg - 1.5, 4.77) * bell(l, 70.0);
-    return std::max(10.0, (disc + bulge) * dust);
+    const double disc = (-22.80 + 58.17 * (1.0 - std::exp(-0.1922 / (sine + 0.02))) / 0.1922) *
+                        (1.0 - 0.3637 * std::cos((l - 151.7) * kDegree) * std::exp(-spread * spread));
+    const double bulge = 1583.0 * bell(l, 9.731) * bell(b_deg - 0.203, 5.765);
+    const double norma = 314.0 * bell(std::remainder(l - 336.15, 360.0), 20.35) * bell(b_deg - 0.855, 8.455);
+    const double aquila = 93.8 * bell(std::remainder(l - 64.88, 360.0), 14.0) * bell(b_deg - 8.993, 6.0);
+    const double dust = 1.0 - 0.8941 * bell(b_deg - 3.224, 10.143) * bell(l, 34.13);
+    return std::max(10.0, (disc + bulge + norma + aquila) * dust);
 }
 
 }  // namespace
@@ -47,7 +50,7 @@ Starlight starlight_s10(double longitude_rad, double latitude_rad) noexcept {
     return {whole - belt, belt};
 }
 
-double mean_starlight_s10() noexcept {
+double typical_starlight_s10() noexcept {
     constexpr int kLatitudes = 90;
     constexpr int kLongitudes = 36;
     double sum = 0.0;
@@ -56,10 +59,10 @@ double mean_starlight_s10() noexcept {
         for (int j = 0; j < kLongitudes; ++j) {
             const Starlight light =
                 starlight_s10(2.0 * std::numbers::pi * (j + 0.5) / kLongitudes, latitude_rad);
-            sum += light.even + light.belt;
+            sum += std::log(light.even + light.belt);
         }
     }
-    return sum / (kLatitudes * kLongitudes);
+    return std::exp(sum / (kLatitudes * kLongitudes));
 }
 
 }  // namespace skyig::render::night

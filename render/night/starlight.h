@@ -28,7 +28,7 @@ struct Starlight {
 /// Of it the part that interstellar dust has scattered: 20 to 30 % (Leinert et al. 1998, section 11).
 inline constexpr double kGalacticLightShare = 0.22;
 
-/// Mean over the sphere.
-[[nodiscard]] double mean_starlight_s10() noexcept;
+/// Geometric mean over the sphere.
+[[nodiscard]] double typical_starlight_s10() noexcept;
 
 }  // namespace skyig::render::night

@@ -101,7 +101,7 @@ double zodiacal_s10(const glm::dvec3& direction_gcrs, const glm::dvec3& sun_gcrs
     return zodiacal_s10(std::acos(std::clamp(cosine, -1.0, 1.0)), std::asin(north));
 }
 
-double mean_zodiacal_s10() noexcept {
+double typical_zodiacal_s10() noexcept {
     constexpr int kLatitudes = 60;
     constexpr int kLongitudes = 90;
     const double nearest = std::cos(30.0 * kDegree);
@@ -112,11 +112,11 @@ double mean_zodiacal_s10() noexcept {
         for (int j = 0; j < kLongitudes; ++j) {
             const double longitude_rad = (j + 0.5) * std::numbers::pi / kLongitudes;
             if (std::cos(longitude_rad) * std::cos(latitude_rad) > nearest) continue;
-            sum += zodiacal_s10(longitude_rad, latitude_rad);
+            sum += std::log(zodiacal_s10(longitude_rad, latitude_rad));
             ++count;
         }
     }
-    return sum / count;
+    return std::exp(sum / count);
 }
 
 }  // namespace skyig::render::night

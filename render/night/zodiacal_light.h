@@ -16,7 +16,7 @@ inline constexpr double kS10_cd_m2 = 8.34e-7;
 /// The same of a direction. \param direction_gcrs, sun_gcrs  unit vectors
 [[nodiscard]] double zodiacal_s10(const glm::dvec3& direction_gcrs, const glm::dvec3& sun_gcrs) noexcept;
 
-/// Its mean over what a dark sky may hold: all that is more than 30 deg from the Sun.
-[[nodiscard]] double mean_zodiacal_s10() noexcept;
+/// Its geometric mean over what a dark sky may hold, all that is more than 30 deg from the Sun.
+[[nodiscard]] double typical_zodiacal_s10() noexcept;
 
 }  // namespace skyig::render::night
