@@ -11,8 +11,8 @@ namespace skyig::render {
 
 enum class NightModel {
     kSources,  ///< each source by its own law
-    kMean,  ///< airglow by its law; zodiacal light and starlight at their geometric means in all directions
-    kSeed,  ///< four constants outside the air, no Milky Way
+    kMean,     ///< airglow by its law; zodiacal light and starlight everywhere as at a dark zenith
+    kSeed,     ///< four constants outside the air, no Milky Way
 };
 
 inline constexpr std::array<std::string_view, 3> kNightModelNames{"sources", "mean", "seed"};

@@ -53,9 +53,11 @@ Starlight starlight_s10(double longitude_rad, double latitude_rad) noexcept {
 double typical_starlight_s10() noexcept {
     constexpr int kLatitudes = 90;
     constexpr int kLongitudes = 36;
+    const double belt = std::sin(kBelt_rad);
     double sum = 0.0;
     for (int i = 0; i < kLatitudes; ++i) {
-        const double latitude_rad = std::asin(2.0 * (i + 0.5) / kLatitudes - 1.0);
+        const double share = 2.0 * (i + 0.5) / kLatitudes - 1.0;
+        const double latitude_rad = std::copysign(std::asin(std::lerp(belt, 1.0, std::abs(share))), share);
         for (int j = 0; j < kLongitudes; ++j) {
             const Starlight light =
                 starlight_s10(2.0 * std::numbers::pi * (j + 0.5) / kLongitudes, latitude_rad);

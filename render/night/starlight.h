@@ -20,15 +20,15 @@ struct Starlight {
 };
 
 /// Stars fainter than V 6.5 with the diffuse galactic light (which is in the measurements that the fit
-/// follows: nothing is to be added for it). An analytic fit of eleven numbers to the maps of Pioneer 10 and
-/// 11 (Toller 1981; Leinert et al. 1998, table 35), 440 nm, 19 % rms in the logarithm. \param longitude_rad,
-/// latitude_rad  galactic
+/// follows: nothing is to be added for it). An analytic fit of twenty numbers to the maps of Pioneer 10 and
+/// 11 (Toller 1981; Leinert et al. 1998, table 35), 440 nm, made for this program: 16 % rms in the logarithm,
+/// weighted by solid angle. \param longitude_rad, latitude_rad  galactic
 [[nodiscard]] Starlight starlight_s10(double longitude_rad, double latitude_rad) noexcept;
 
 /// Of it the part that interstellar dust has scattered: 20 to 30 % (Leinert et al. 1998, section 11).
 inline constexpr double kGalacticLightShare = 0.22;
 
-/// Geometric mean over the sphere.
+/// Geometric mean outside the belt.
 [[nodiscard]] double typical_starlight_s10() noexcept;
 
 }  // namespace skyig::render::night

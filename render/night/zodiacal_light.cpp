@@ -104,14 +104,14 @@ double zodiacal_s10(const glm::dvec3& direction_gcrs, const glm::dvec3& sun_gcrs
 double typical_zodiacal_s10() noexcept {
     constexpr int kLatitudes = 60;
     constexpr int kLongitudes = 90;
-    const double nearest = std::cos(30.0 * kDegree);
+    const double ecliptic = std::sin(20.0 * kDegree);
     double sum = 0.0;
     int count = 0;
     for (int i = 0; i < kLatitudes; ++i) {
-        const double latitude_rad = std::asin((i + 0.5) / kLatitudes);
+        const double latitude_rad = std::asin(std::lerp(ecliptic, 1.0, (i + 0.5) / kLatitudes));
         for (int j = 0; j < kLongitudes; ++j) {
             const double longitude_rad = (j + 0.5) * std::numbers::pi / kLongitudes;
-            if (std::cos(longitude_rad) * std::cos(latitude_rad) > nearest) continue;
+            if (longitude_rad < 0.5 * std::numbers::pi) continue;
             sum += std::log(zodiacal_s10(longitude_rad, latitude_rad));
             ++count;
         }

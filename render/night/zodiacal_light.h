@@ -16,7 +16,8 @@ inline constexpr double kS10_cd_m2 = 8.34e-7;
 /// The same of a direction. \param direction_gcrs, sun_gcrs  unit vectors
 [[nodiscard]] double zodiacal_s10(const glm::dvec3& direction_gcrs, const glm::dvec3& sun_gcrs) noexcept;
 
-/// Its geometric mean over what a dark sky may hold, all that is more than 30 deg from the Sun.
+/// Its geometric mean away from the ecliptic (by more than 20 deg) in the half of the sky opposite to the
+/// Sun: that of a dark zenith.
 [[nodiscard]] double typical_zodiacal_s10() noexcept;
 
 }  // namespace skyig::render::night
