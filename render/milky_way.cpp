@@ -33,7 +33,7 @@ MilkyWay::MilkyWay() : patches_(kRows, kColumns) {
             directions.emplace_back(direction);
             vertices_.push_back({glm::vec3{direction},
                                  glm::vec2{night::MilkyWayMap::place(longitude_rad, latitude_rad)},
-                                 glm::vec3{0.0F}, glm::vec3{0.0F}});
+                                 glm::vec3{0.0F}, 0.0F});
             const double belt = night::starlight_s10(longitude_rad, latitude_rad).belt;
             brightest_.push_back(std::max(kPeak * night::kS10_cd_m2 * belt, kFaintest_cd_m2));
         }
@@ -76,8 +76,13 @@ void MilkyWay::shade(const SkyLight& light, const shaders64::ToneParameters& ton
         const glm::vec3 half = added(0.5);
         const glm::vec3 whole = added(1.0);
         const auto t32 = static_cast<float>(t);
-        vertex.linear = (4.0F * half - whole) / t32;
-        vertex.square = 2.0F * (whole - 2.0F * half) / (t32 * t32);
+        // The channels are one grey before the night's tint: one bend serves all.
+        const float sum_half = half.x + half.y + half.z;
+        const float sum_whole = whole.x + whole.y + whole.z;
+        const float straight = 4.0F * sum_half - sum_whole;
+        const float bend = straight > 0.0F ? 2.0F * (sum_whole - 2.0F * sum_half) / straight : 0.0F;
+        vertex.bend = bend / t32;
+        vertex.colour = whole / (t32 * (1.0F + bend));
     }
 }
 

@@ -16,12 +16,12 @@
 namespace skyig::render {
 
 /// As the vertex shader night/milky_way.vert takes it. Added display codes (0..1) of a texel t of the map:
-/// linear t + square t^2, exact at two luminances.
+/// colour t (1 + bend t), exact at one luminance, in the mean of the channels at two.
 struct MilkyWayVertex {
     glm::vec3 direction;  ///< galactic axes
     glm::vec2 place;      ///< on the map, 0..1 through texel centres
-    glm::vec3 linear;
-    glm::vec3 square;
+    glm::vec3 colour;
+    float bend;
 };
 
 class MilkyWay {

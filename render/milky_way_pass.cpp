@@ -10,7 +10,7 @@ using Map = night::MilkyWayMap;
 
 MilkyWayPass::MilkyWayPass()
     : program_("night/milky_way.vert", "night/milky_way.frag"),
-      mesh_({3, 2, 3, 3}, std::size_t{MilkyWay::kRows + 1} * (MilkyWay::kColumns + 1)),
+      mesh_({3, 2, 3, 1}, std::size_t{MilkyWay::kRows + 1} * (MilkyWay::kColumns + 1)),
       clip_(program_.uniform("u_clip_from_galactic")),
       half_size_(program_.uniform("u_half_size_px")),
       up_(program_.uniform("u_up_galactic")),

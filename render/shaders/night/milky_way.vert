@@ -5,8 +5,8 @@
 
 layout(location = 0) in vec3 a_direction;
 layout(location = 1) in vec2 a_place;
-layout(location = 2) in vec3 a_linear;
-layout(location = 3) in vec3 a_square;
+layout(location = 2) in vec3 a_colour;
+layout(location = 3) in float a_bend;
 
 uniform mat4 u_clip_from_galactic;
 uniform vec2 u_half_size_px;
@@ -16,16 +16,16 @@ uniform vec2 u_place_scale;      // from edge to edge of the map to its texels
 uniform vec2 u_place_shift;
 
 out vec2 v_place;
-out vec3 v_linear;
-out vec3 v_square;
+out vec3 v_colour;
+out float v_bend;
 out float v_above_horizon;
 out float v_dither_phase_w;
 
 void main() {
     gl_Position = u_clip_from_galactic * vec4(a_direction, 1.0);
     v_place = a_place * u_place_scale + u_place_shift;
-    v_linear = a_linear;
-    v_square = a_square;
+    v_colour = a_colour;
+    v_bend = a_bend;
     v_above_horizon = dot(a_direction, u_up_galactic) - u_horizon_sine;
     // Another sequence than the dome's, so that the two roundings are not of one mind.
     v_dither_phase_w = 3.0 * dot((gl_Position.xy + gl_Position.w) * u_half_size_px, kDitherStep);
