@@ -18,8 +18,6 @@ namespace {
 
 using namespace tests;
 
-class MilkyWayPicture : public GlTest {};
-
 // Stars off; the view stands on the brightest part of the belt that is well up.
 Scene moonless(double height_m = 600.0) {
     Scene scene = make_scene(-35.0, 0.0, -40.0, 170.0, height_m);
@@ -56,28 +54,31 @@ struct Codes {
     double brightest = 0.0;
 };
 
-Codes off_by(const Scene& scene, const Channel& channel) {
-    Renderer renderer({channel}, undithered());
-    const auto picture = draw(renderer, scene)[0];
-    std::vector<double> errors;
-    Codes codes;
-    for (int y = 0; y < channel.height_px; y += 2) {
-        for (int x = 0; x < channel.width_px; x += 2) {
-            const glm::dvec3 direction =
-                glm::transpose(scene.views[0].view_from_enu) *
-                view_direction(channel, scene.views[0].frustum, x + 0.5, channel.height_px - y - 0.5);
-            const glm::dvec3 exact = 255.0 * renderer.reference_colour(direction);
-            const Rgb drawn = picture.at(x, y);
-            const glm::dvec3 off = glm::abs(glm::dvec3{drawn.r, drawn.g, drawn.b} - exact);
-            errors.push_back(std::max({off.x, off.y, off.z}));
-            codes.brightest = std::max(codes.brightest, exact.y);
+class MilkyWayPicture : public GlTest {
+  protected:
+    Codes off_by(const Scene& scene, const Channel& channel) {
+        Renderer renderer({channel}, undithered());
+        const auto picture = draw(renderer, scene)[0];
+        std::vector<double> errors;
+        Codes codes;
+        for (int y = 0; y < channel.height_px; y += 2) {
+            for (int x = 0; x < channel.width_px; x += 2) {
+                const glm::dvec3 direction =
+                    glm::transpose(scene.views[0].view_from_enu) *
+                    view_direction(channel, scene.views[0].frustum, x + 0.5, channel.height_px - y - 0.5);
+                const glm::dvec3 exact = 255.0 * renderer.reference_colour(direction);
+                const Rgb drawn = picture.at(x, y);
+                const glm::dvec3 off = glm::abs(glm::dvec3{drawn.r, drawn.g, drawn.b} - exact);
+                errors.push_back(std::max({off.x, off.y, off.z}));
+                codes.brightest = std::max(codes.brightest, exact.y);
+            }
         }
+        std::sort(errors.begin(), errors.end());
+        codes.p99 = errors[errors.size() * 99 / 100];
+        codes.largest = errors.back();
+        return codes;
     }
-    std::sort(errors.begin(), errors.end());
-    codes.p99 = errors[errors.size() * 99 / 100];
-    codes.largest = errors.back();
-    return codes;
-}
+};
 
 TEST_F(MilkyWayPicture, DrawnPixelsAreWithinACodeOfTheExactLight) {
     const Channel channel{"only", 320, 256};
@@ -139,7 +140,7 @@ TEST_F(MilkyWayPicture, NeighbouringChannelsAgree) {
             if (u < 1.0 || u > 255.0 || v < 1.0 || v > 127.0) continue;
             const Rgb a = pictures[1].at(x, y);
             const Rgb b = pictures[0].at(static_cast<int>(u), static_cast<int>(v));
-            largest = std::max({largest, std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+            largest = std::max(largest, difference(a, b));
         }
     }
     std::printf("neighbours differ by at most %d codes\n", largest);
