@@ -153,6 +153,7 @@ TEST(MilkyWayFrames, NoVertexJumpsWhileTheSkyTurns) {
     const Scene start = scene;
     std::vector<MilkyWayVertex> before;
     float largest = 0.0F;
+    float brightest = 0.0F;
     for (int i = 0; i < 240; ++i) {
         // Sixty times the real sky's pace.
         const double turn_rad = 60.0 * 7.29e-5 * i / 30.0;
@@ -176,9 +177,14 @@ TEST(MilkyWayFrames, NoVertexJumpsWhileTheSkyTurns) {
             };
             largest = std::max(largest, std::abs(code(now[k]) - code(before[k])));
         }
+        for (const MilkyWayVertex& vertex : now)
+            brightest = std::max(brightest, 255.0F * vertex.colour.y * t);
         before.assign(now.begin(), now.end());
     }
-    std::printf("largest step of a vertex %.2f codes\n", static_cast<double>(largest));
+    std::printf("largest step of a vertex %.4f codes of %.1f\n", static_cast<double>(largest),
+                static_cast<double>(brightest));
+    EXPECT_GT(brightest, 3.0F);
+    EXPECT_GT(largest, 0.0F);
     EXPECT_LT(largest, 0.5F);
 }
 
