@@ -20,7 +20,7 @@ constexpr double kFaintest_cd_m2 = 3e-5;
 
 }  // namespace
 
-MilkyWay::MilkyWay() : patches_(kRows, kColumns) {
+MilkyWay::MilkyWay(std::size_t screens) : vertices_(screens), patches_(kRows, kColumns) {
     constexpr double kTurn_rad = 2.0 * std::numbers::pi;
     std::vector<glm::vec3> directions;
     for (int row = 0; row <= kRows; ++row) {
@@ -31,9 +31,10 @@ MilkyWay::MilkyWay() : patches_(kRows, kColumns) {
                                        std::cos(latitude_rad) * std::sin(longitude_rad),
                                        std::sin(latitude_rad)};
             directions.emplace_back(direction);
-            vertices_.push_back({glm::vec3{direction},
-                                 glm::vec2{night::MilkyWayMap::place(longitude_rad, latitude_rad)},
-                                 glm::vec3{0.0F}, 0.0F});
+            for (auto& vertices : vertices_)
+                vertices.push_back({glm::vec3{direction},
+                                    glm::vec2{night::MilkyWayMap::place(longitude_rad, latitude_rad)},
+                                    glm::vec3{0.0F}, 0.0F});
             const double belt = night::starlight_s10(longitude_rad, latitude_rad).belt;
             brightest_.push_back(std::max(kPeak * night::kS10_cd_m2 * belt, kFaintest_cd_m2));
         }
@@ -54,35 +55,45 @@ bool MilkyWay::make_map(const NightSettings& settings, bool at_once) {
     return true;
 }
 
-void MilkyWay::shade(const SkyLight& light, const shaders64::ToneParameters& tone, bool at_once) noexcept {
-    const auto tone32 = eye::single_precision(tone);
+namespace {
+
+// What a luminance adds to the display before that light, as a vertex has it.
+void shade_vertex(MilkyWayVertex& vertex, const glm::vec3& behind, const glm::vec3& passes, double most_cd_m2,
+                  const shaders32::ToneParameters& tone) {
+    const glm::vec3 code = shaders32::shown(behind, tone);
+    const double t = night::MilkyWayMap::warped(most_cd_m2);
+    const auto added = [&](double share) {
+        const auto luminance = static_cast<float>(night::MilkyWayMap::unwarped(share * t));
+        return shaders32::shown(behind + luminance * passes, tone) - code;
+    };
+    const glm::vec3 half = added(0.5);
+    const glm::vec3 whole = added(1.0);
+    // The channels are one grey before the night's tint: one bend serves all.
+    const float sum_half = half.x + half.y + half.z;
+    const float sum_whole = whole.x + whole.y + whole.z;
+    const float straight = 4.0F * sum_half - sum_whole;
+    const float bend = straight > 0.0F ? 2.0F * (sum_whole - 2.0F * sum_half) / straight : 0.0F;
+    const auto t32 = static_cast<float>(t);
+    vertex.bend = bend / t32;
+    vertex.colour = whole / (t32 * (1.0F + bend));
+}
+
+}  // namespace
+
+void MilkyWay::shade(const SkyLight& light, std::span<const shaders64::ToneParameters> tones,
+                     bool at_once) noexcept {
     const glm::dmat3 enu_from_galactic = glm::transpose(light.milky_way.galactic_from_enu);
-    const std::size_t count = at_once ? vertices_.size() : vertices_.size() / kFramesARound + 1;
+    const std::size_t count = at_once ? brightest_.size() : brightest_.size() / kFramesARound + 1;
     for (std::size_t i = 0; i < count; ++i) {
-        MilkyWayVertex& vertex = vertices_[next_];
-        const double most_cd_m2 = brightest_[next_];
-        next_ = (next_ + 1) % vertices_.size();
-        Horizontal at = horizontal_of(enu_from_galactic * glm::dvec3{vertex.direction});
+        Horizontal at = horizontal_of(enu_from_galactic * glm::dvec3{vertices_.front()[next_].direction});
         // Below the horizon the strip goes on as at its end, for the triangles that cross it.
         at.elevation_rad = std::max(at.elevation_rad, light.horizon_elevation_rad);
         const glm::vec3 behind = light.smooth_rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kSky);
         const glm::vec3 passes = light.belt_passes(at.elevation_rad);
-        const glm::vec3 code = shaders32::shown(behind, tone32);
-        const double t = night::MilkyWayMap::warped(most_cd_m2);
-        const auto added = [&](double share) {
-            const auto luminance = static_cast<float>(night::MilkyWayMap::unwarped(share * t));
-            return shaders32::shown(behind + luminance * passes, tone32) - code;
-        };
-        const glm::vec3 half = added(0.5);
-        const glm::vec3 whole = added(1.0);
-        const auto t32 = static_cast<float>(t);
-        // The channels are one grey before the night's tint: one bend serves all.
-        const float sum_half = half.x + half.y + half.z;
-        const float sum_whole = whole.x + whole.y + whole.z;
-        const float straight = 4.0F * sum_half - sum_whole;
-        const float bend = straight > 0.0F ? 2.0F * (sum_whole - 2.0F * sum_half) / straight : 0.0F;
-        vertex.bend = bend / t32;
-        vertex.colour = whole / (t32 * (1.0F + bend));
+        for (std::size_t screen = 0; screen < vertices_.size(); ++screen)
+            shade_vertex(vertices_[screen][next_], behind, passes, brightest_[next_],
+                         eye::single_precision(tones[screen]));
+        next_ = (next_ + 1) % brightest_.size();
     }
 }
 

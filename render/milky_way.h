@@ -31,7 +31,8 @@ class MilkyWay {
     /// Frames over which the vertices are shaded anew, some in each.
     static constexpr std::size_t kFramesARound = 8;
 
-    MilkyWay();
+    /// \param screens  vertices are shaded for each
+    explicit MilkyWay(std::size_t screens = 1);
 
     /// Makes the map that the settings ask for, some rows a frame; allocates when it is begun. \param at_once
     /// the whole map. \return whether it is there
@@ -39,10 +40,14 @@ class MilkyWay {
 
     /// Shades vertices for the frame's light, whose `milky_way` must be set. Allocates nothing. \param
     /// at_once all of them, not their turn alone
-    void shade(const SkyLight& light, const shaders64::ToneParameters& tone, bool at_once) noexcept;
+    void shade(const SkyLight& light, std::span<const shaders64::ToneParameters> tones,
+               bool at_once) noexcept;
 
     [[nodiscard]] const night::MilkyWayMap& map() const noexcept { return map_; }
-    [[nodiscard]] std::span<const MilkyWayVertex> vertices() const noexcept { return vertices_; }
+    [[nodiscard]] std::span<const MilkyWayVertex> vertices(std::size_t screen = 0) const noexcept {
+        return vertices_[screen];
+    }
+    [[nodiscard]] std::size_t screens() const noexcept { return vertices_.size(); }
     [[nodiscard]] std::span<const std::uint32_t> indices() const noexcept { return patches_.indices(); }
     /// What of the indices a view needs; valid until the next call.
     [[nodiscard]] std::span<const IndexRange> visible(const glm::dmat4& clip_from_galactic) noexcept {
@@ -56,7 +61,7 @@ class MilkyWay {
     double structure_ = -1.0;
     std::uint32_t seed_ = 0;
     std::uint64_t map_revision_ = 0;
-    std::vector<MilkyWayVertex> vertices_;
+    std::vector<std::vector<MilkyWayVertex>> vertices_;  // of each screen
     std::vector<double> brightest_;  // luminance at each vertex that the codes are exact for
     DomePatches patches_;
     std::size_t next_ = 0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <vector>
 
 #include "render/channel.h"
 #include "render/gl/mesh.h"
@@ -16,16 +17,17 @@ namespace skyig::render {
 class MilkyWayPass {
   public:
     /// \throws std::runtime_error when the program cannot be made
-    MilkyWayPass();
+    explicit MilkyWayPass(std::size_t screens);
 
     /// Uploads what has changed. \param light  of the frame
     void prepare(const MilkyWay& milky_way, const SkyLight& light, bool dither);
     /// Draws nothing where the belt is out of view.
-    void draw(MilkyWay& milky_way, const Channel& channel, const glm::dmat4& clip_from_enu) const;
+    void draw(MilkyWay& milky_way, const Channel& channel, std::size_t screen,
+              const glm::dmat4& clip_from_enu) const;
 
   private:
     gl::Program program_;
-    gl::Mesh mesh_;
+    std::vector<gl::Mesh> meshes_;  // one a screen
     std::optional<gl::Texture> map_;
     std::uint64_t map_revision_ = 0;
     glm::dmat3 enu_from_galactic_{1.0};

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "render/eye/exposure.h"
 #include "render/eye/tone_curve.h"
 #include "render/night/natural_light.h"
 #include "render/night/starlight.h"
@@ -28,43 +29,112 @@ bool scale_moved(const glm::vec3& a, const glm::vec3& b) {
     return glm::any(glm::greaterThan(glm::abs(a - b), kLightStep * glm::max(a, b)));
 }
 
+ClippedLight clipped_light(const std::array<double, eye::kProbeCount>& probes_cd_m2,
+                           const shaders64::ToneParameters& tone) {
+    ClippedLight clipped;
+    for (const double luminance : probes_cd_m2) {
+        const double white_parts = shaders64::display_linear(glm::dvec3{luminance}, tone).y - tone.ambient;
+        clipped.below_black += white_parts <= 0.0 ? 1.0 : 0.0;
+        clipped.above_white += white_parts > 1.0 ? 1.0 : 0.0;
+    }
+    clipped.below_black /= static_cast<double>(eye::kProbeCount);
+    clipped.above_white /= static_cast<double>(eye::kProbeCount);
+    return clipped;
+}
+
+// What a target of luminance asks of the dome: the finest there is.
+constexpr Quality kFinest{.error_codes = 0.0, .forced = {}};
+
 }  // namespace
 
-SkyFrame::SkyFrame(const DisplaySettings& display, const Quality& quality)
-    : display_(display), quality_(quality), tables_(direction_table_size(quality)) {}
+SkyFrame::SkyFrame(const DisplaySettings& display, const Quality& quality, std::span<const Screen> screens,
+                   Target target)
+    : displays_(std::max<std::size_t>(screens.size(), 1), display),
+      quality_(quality),
+      target_(target),
+      tables_(direction_table_size(quality)),
+      dome_(displays_.size()),
+      milky_way_(displays_.size()),
+      display_tones_(displays_.size()),
+      tones_(displays_.size()),
+      clipped_(displays_.size()) {
+    for (std::size_t i = 0; i < screens.size(); ++i)
+        displays_[i] = before_screen(display, screens[i]);
+}
 
 void SkyFrame::prepare(const Scene& scene, double pixel_rad) {
     const sky::RefractionRow refraction = tables_.refraction(scene);
     plan_ = make_plan(scene, tables_.held(scene), refraction, quality_);
     tables_.update(scene, plan_);
     light_ = tables_.light(scene, plan_, refraction);
-    adapt(scene, pixel_rad);
+    adapt(scene);
+    tone_screens(scene, pixel_rad);
     refresh_milky_way(scene);
     refresh_dome(pixel_rad);
     tell_dome();
 }
 
-void SkyFrame::adapt(const Scene& scene, double pixel_rad) {
-    std::array<double, eye::kProbeCount> luminance{};
-    double darkest_sky = std::numeric_limits<double>::infinity();
+void SkyFrame::adapt(const Scene& scene) {
+    eye::LuminanceMean all;
     for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
         const eye::ProbeDirection& probe = eye::probe_directions()[i];
         const double elevation =
             std::min(light_.horizon_elevation_rad + probe.above_horizon_rad, kZenith_rad);
-        luminance[i] = static_cast<double>(
-            shaders32::luminance_709(light_.rgb_cd_m2(elevation, probe.azimuth_rad, Side::kByElevation)));
-        if (probe.above_horizon_rad > 0.0) darkest_sky = std::min(darkest_sky, luminance[i]);
+        probes_cd_m2_[i] = luminance_cd_m2(elevation, probe.azimuth_rad);
+        all.add(probes_cd_m2_[i]);
     }
-    const double now_cd_m2 =
-        adaptation_.update(eye::adaptation_target_cd_m2(luminance), scene.time_s, tables_.jumped(), display_);
-    tone_ = eye::tone_parameters(display_, now_cd_m2);
-    darkest_sky_cd_m2_ = darkest_sky;
-    plan_stars(plan_, scene, darkest_sky, half_code_mag(darkest_sky, tone_, pixel_rad));
+    const DisplaySettings& eye = displays_.front();
+    if (eye.adapt_to != AdaptationSource::kSky) {
+        eye::LuminanceMean seen;
+        for (const ChannelView& view : scene.channel_views()) {
+            if (!has_area(view.frustum)) continue;
+            for (const eye::ViewProbe& probe : eye::view_probes(view)) {
+                const Horizontal at = horizontal_of(probe.direction_enu);
+                seen.add(luminance_cd_m2(at.elevation_rad, at.azimuth_rad), probe.solid_angle_sr);
+            }
+        }
+        if (!seen.empty()) all = seen;
+    }
+    const double wanted_cd_m2 = eye.fixed_adaptation_cd_m2 > 0.0              ? eye.fixed_adaptation_cd_m2
+                                : eye.adapt_to == AdaptationSource::kViewMean ? all.mean_cd_m2()
+                                                                              : all.log_average_cd_m2();
+    adaptation_.update(wanted_cd_m2, scene.time_s, tables_.jumped(), eye);
+}
+
+void SkyFrame::tone_screens(const Scene& scene, double pixel_rad) {
+    double darkest_sky = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
+        if (eye::probe_directions()[i].above_horizon_rad > 0.0)
+            darkest_sky = std::min(darkest_sky, probes_cd_m2_[i]);
+    }
+    milky_way_codes_ = 0.0;
+    // The faintest star that any screen shows.
+    double faintest_mag = -std::numeric_limits<double>::infinity();
+    for (std::size_t screen = 0; screen < display_tones_.size(); ++screen) {
+        display_tones_[screen] = eye::tone_parameters(displays_[screen], adaptation_.luminance_cd_m2());
+        clipped_[screen] = clipped_light(probes_cd_m2_, display_tones_[screen]);
+        milky_way_codes_ =
+            std::max(milky_way_codes_, milky_way_most_codes(darkest_sky, display_tones_[screen]));
+        faintest_mag = std::max(faintest_mag, half_code_mag(darkest_sky, display_tones_[screen], pixel_rad));
+    }
+    if (target_ == Target::kDisplay) {
+        tones_ = display_tones_;
+        plan_stars(plan_, scene, darkest_sky, faintest_mag);
+        return;
+    }
+    exposure_exponent_ = eye::exposure_exponent(target_, adaptation_.luminance_cd_m2());
+    std::fill(tones_.begin(), tones_.end(), eye::luminance_parameters(exposure_exponent_));
+    plan_all_stars(plan_, scene);
+}
+
+double SkyFrame::luminance_cd_m2(double elevation_rad, double azimuth_rad) const {
+    return static_cast<double>(
+        shaders32::luminance_709(light_.rgb_cd_m2(elevation_rad, azimuth_rad, Side::kByElevation)));
 }
 
 // Adaptation leaves the belt out, so that it may depend on what the eye sees at all.
 void SkyFrame::refresh_milky_way(const Scene& scene) {
-    plan_milky_way(plan_, scene, milky_way_most_codes(darkest_sky_cd_m2_, tone_));
+    plan_milky_way(plan_, scene, milky_way_codes_);
     const bool first = shaded_.tables == 0 || tables_.jumped();
     if (!plan_.needs(Pass::kMilkyWay) || !milky_way_.make_map(scene.night, first)) {
         milky_way_shown_ = false;
@@ -73,7 +143,7 @@ void SkyFrame::refresh_milky_way(const Scene& scene) {
     light_.milky_way = {&milky_way_.map(),
                         night::galactic_from_gcrs() * glm::transpose(scene.stars.enu_from_gcrs),
                         static_cast<float>(plan_.night_share * night::starlight_share(scene.night))};
-    milky_way_.shade(light_, tone_, first || !milky_way_shown_);
+    milky_way_.shade(light_, tones_, first || !milky_way_shown_);
     milky_way_shown_ = true;
 }
 
@@ -90,16 +160,19 @@ void SkyFrame::refresh_dome(double pixel_rad) {
     const bool scaled = scale_moved(light_.sun.scale_xyz, shaded_.sun_scale) ||
                         scale_moved(light_.moon.scale_xyz, shaded_.moon_scale) || turned;
     const bool toned =
-        std::abs(adaptation - shaded_.adaptation_cd_m2) > kAdaptationStep * shaded_.adaptation_cd_m2;
+        std::abs(adaptation - shaded_.adaptation_cd_m2) > kAdaptationStep * shaded_.adaptation_cd_m2 ||
+        exposure_exponent_ != shaded_.exposure_exponent;
+    const bool of_light = target_ != Target::kDisplay;
+    const Quality& quality = of_light ? kFinest : quality_;
     mesh_azimuth_rad_ = wanted.azimuth_rad;
     if (lay) {
-        bend_.measure(light_, tone_, mesh_azimuth_rad_, pixel_rad);
-        dome_.lay_out(wanted, bend_, plan_dome(bend_, at_once ? DomeBend::kLeast : dome_.size(), quality_));
+        bend_.measure(light_, display_tones_, mesh_azimuth_rad_, pixel_rad);
+        dome_.lay_out(wanted, bend_, plan_dome(bend_, at_once ? DomeBend::kLeast : dome_.size(), quality));
     }
     if (replaced || scaled) {
-        const auto change = at_once    ? Dome::Change::kAtOnce
-                            : replaced ? Dome::Change::kReplaced
-                                       : Dome::Change::kScaled;
+        const auto change = at_once || of_light ? Dome::Change::kAtOnce
+                            : replaced          ? Dome::Change::kReplaced
+                                                : Dome::Change::kScaled;
         dome_.look_up(light_, mesh_azimuth_rad_, change);
         shaded_.tables = tables_.revision();
         shaded_.sun_scale = light_.sun.scale_xyz;
@@ -107,12 +180,13 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         shaded_.moon_from_sun_rad = wanted.second_azimuth_rad;
     }
     if (replaced || scaled || toned) {
-        dome_.encode(tone_);
+        dome_.encode(tones_);
         shaded_.adaptation_cd_m2 = adaptation;
+        shaded_.exposure_exponent = exposure_exponent_;
         ++vertices_revision_;
     }
     if (lay) {
-        dome_error_codes_ = dome_.split_quads(light_, mesh_azimuth_rad_, tone_);
+        dome_error_codes_ = dome_.triangulate(light_, mesh_azimuth_rad_, tones_.front(), quality.error_codes);
         ++triangles_revision_;
     }
     dome_.step();
@@ -124,16 +198,16 @@ void SkyFrame::tell_dome() noexcept {
     planned.error_codes = dome_error_codes_;
 }
 
-glm::dvec3 SkyFrame::exact_colour(const glm::dvec3& direction_enu) const {
+glm::dvec3 SkyFrame::exact_colour(const glm::dvec3& direction_enu, std::size_t screen) const {
     const Horizontal at = horizontal_of(direction_enu);
     const glm::vec3 rgb = light_.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation);
-    return shaders64::shown(glm::dvec3{rgb}, tone_);
+    return shaders64::shown(glm::dvec3{rgb}, tones_[screen]);
 }
 
-glm::dvec3 SkyFrame::exact_dome_colour(const glm::dvec3& direction_enu) const {
+glm::dvec3 SkyFrame::exact_dome_colour(const glm::dvec3& direction_enu, std::size_t screen) const {
     const Horizontal at = horizontal_of(direction_enu);
     const glm::vec3 rgb = light_.smooth_rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation);
-    return shaders64::shown(glm::dvec3{rgb}, tone_);
+    return shaders64::shown(glm::dvec3{rgb}, tones_[screen]);
 }
 
 }  // namespace skyig::render

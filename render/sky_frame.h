@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "render/display.h"
 #include "render/dome.h"
@@ -11,12 +13,23 @@
 #include "render/plan.h"
 #include "render/scene.h"
 #include "render/sky_light.h"
+#include "render/target.h"
 
 namespace skyig::render {
 
+/// Parts of the probed directions, 0..1.
+struct ClippedLight {
+    double below_black = 0.0;  ///< shown as code 0
+    double above_white = 0.0;  ///< asks for more than full white, before the shoulder
+};
+
 class SkyFrame {
   public:
-    SkyFrame(const DisplaySettings& display, const Quality& quality);
+    /// \param screens  different ones that the light is toned for; none: that of `display`
+    /// \param target  a target of luminance has the finest dome and all stars; the displays still decide
+    /// where the dome's nodes lie
+    SkyFrame(const DisplaySettings& display, const Quality& quality, std::span<const Screen> screens = {},
+             Target target = Target::kDisplay);
 
     /// \param pixel_rad  angle of the finest pixel of the rig: edges are softened over it. Allocates nothing
     /// in steady state. The first call builds all tables and may throw std::bad_alloc; later ones do not
@@ -26,7 +39,12 @@ class SkyFrame {
     // All of this is the prepared frame's.
     [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
     [[nodiscard]] const SkyLight& light() const noexcept { return light_; }
-    [[nodiscard]] const shaders64::ToneParameters& tone() const noexcept { return tone_; }
+    /// What turns light into the target's values.
+    [[nodiscard]] const shaders64::ToneParameters& tone(std::size_t screen = 0) const noexcept {
+        return tones_[screen];
+    }
+    /// k of what a target of luminance holds, light times 2^k. \see eye::exposure_exponent()
+    [[nodiscard]] int exposure_exponent() const noexcept { return exposure_exponent_; }
     [[nodiscard]] double adaptation_cd_m2() const noexcept { return adaptation_.luminance_cd_m2(); }
     [[nodiscard]] const sky::AirTables& air() const noexcept { return tables_.air(); }
     [[nodiscard]] const LightTables& tables() const noexcept { return tables_; }
@@ -42,30 +60,42 @@ class SkyFrame {
     [[nodiscard]] std::uint64_t triangles_revision() const noexcept { return triangles_revision_; }
     [[nodiscard]] std::uint64_t vertices_revision() const noexcept { return vertices_revision_; }
 
+    /// What a screen cannot show of the directions that the eye adapts to.
+    [[nodiscard]] const ClippedLight& clipped(std::size_t screen = 0) const noexcept {
+        return clipped_[screen];
+    }
+
     /// The colour that the frame's light and tone curve give for one direction, before dither.
-    [[nodiscard]] glm::dvec3 exact_colour(const glm::dvec3& direction_enu) const;
+    [[nodiscard]] glm::dvec3 exact_colour(const glm::dvec3& direction_enu, std::size_t screen = 0) const;
     /// The same of what the dome carries: without the Milky Way's belt.
-    [[nodiscard]] glm::dvec3 exact_dome_colour(const glm::dvec3& direction_enu) const;
+    [[nodiscard]] glm::dvec3 exact_dome_colour(const glm::dvec3& direction_enu, std::size_t screen = 0) const;
 
   private:
-    void adapt(const Scene& scene, double pixel_rad);
     void refresh_milky_way(const Scene& scene);
+    void adapt(const Scene& scene);
+    void tone_screens(const Scene& scene, double pixel_rad);
+    [[nodiscard]] double luminance_cd_m2(double elevation_rad, double azimuth_rad) const;
     void refresh_dome(double pixel_rad);
     void tell_dome() noexcept;
 
-    DisplaySettings display_;
+    std::vector<DisplaySettings> displays_;  // the same eye before each screen
     Quality quality_;
+    Target target_;
     LightTables tables_;
     eye::Adaptation adaptation_;
     DomeBend bend_;
     Dome dome_;
     MilkyWay milky_way_;
     bool milky_way_shown_ = false;
-    double darkest_sky_cd_m2_ = 0.0;
+    double milky_way_codes_ = 0.0;
 
     Plan plan_;
     SkyLight light_;
-    shaders64::ToneParameters tone_{};
+    std::array<double, eye::kProbeCount> probes_cd_m2_{};
+    std::vector<shaders64::ToneParameters> display_tones_;
+    std::vector<shaders64::ToneParameters> tones_;  // of the target
+    int exposure_exponent_ = 0;
+    std::vector<ClippedLight> clipped_;
     double mesh_azimuth_rad_ = 0.0;
     double dome_error_codes_ = 0.0;
     std::uint64_t triangles_revision_ = 0;
@@ -75,6 +105,7 @@ class SkyFrame {
     struct Shaded {
         std::uint64_t tables = 0;
         double adaptation_cd_m2 = 0.0;
+        int exposure_exponent = 0;
         glm::vec3 sun_scale{-1.0F};
         glm::vec3 moon_scale{-1.0F};
         double moon_from_sun_rad = 0.0;
