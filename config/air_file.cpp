@@ -34,6 +34,7 @@ AirFileResult parse_air_file(std::string_view text, const std::string& file_name
     TableReader root(errors, &document, {}, {});
     read_air(root.table("air"), file.air);
     read_sky(root.table("sky"), file.sky);
+    read_night(root.table("night"), errors, file.night);
     if (document.find("planet") != nullptr) file.planet.emplace();
     Planet unused;
     read_planet(root.table("planet"), file.planet ? *file.planet : unused);

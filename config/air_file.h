@@ -1,5 +1,5 @@
-// A description of the air alone, for tools that need no site: [air] and [sky] as in a configuration, or
-// [planet].
+// A description of the air alone, for tools that need no site: [air], [sky] and [night] as in a
+// configuration, or [planet] in place of [air].
 #pragma once
 
 #include <optional>
@@ -31,6 +31,7 @@ struct Planet {
 struct AirFile {
     Air air;
     Sky sky;
+    Night night;
     /// Given: the air is this, and [air] says nothing.
     std::optional<Planet> planet;
 };

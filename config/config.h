@@ -9,6 +9,7 @@
 
 #include "config/channel.h"
 #include "config/host.h"
+#include "config/night.h"
 #include "config/screen.h"
 #include "config/sky.h"
 #include "config/source.h"
@@ -156,6 +157,7 @@ struct Config {
     Air air;
     Ground ground;
     Sky sky;
+    Night night;
     Ephemeris ephemeris;
     Display display;
     Quality quality;

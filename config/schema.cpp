@@ -141,6 +141,7 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_air(root.table("air"), config.air);
     read_ground(root.table("ground"), config.ground);
     read_sky(root.table("sky"), config.sky);
+    read_night(root.table("night"), errors, config.night);
     read_ephemeris(root.table("ephemeris"), config.ephemeris);
     read_display(root.table("display"), config.display);
     read_quality(root.table("quality"), config.quality);

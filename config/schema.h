@@ -20,6 +20,9 @@ void read_status(TableReader& table, Status& status);
 void read_air(TableReader table, Air& air);
 void read_sky(TableReader table, Sky& sky);
 
+/// Reads [night] with its cities.
+void read_night(TableReader table, ErrorList& errors, Night& night);
+
 /// Reads what [display] and [channel.display] have in common; what is left out stays. Full white that is
 /// given brings an adaptation of half of it.
 void read_screen(TableReader& table, Screen& screen);

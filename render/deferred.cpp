@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "render/colour.h"
-#include "render/night/night_floor.h"
 #include "render/sky/staleness.h"
 
 namespace skyig::render {
@@ -67,9 +66,8 @@ void DeferredAir::update(const Scene& scene, const Plan& plan, const LightTables
         if (!shines(body, plan, light)) continue;
         wanted.lights[wanted.count++] = {body, horizontal_of(direction_of(body, scene)).elevation_rad};
     }
-    const double level_rad = std::max(light.straight_horizon_rad, 0.0);
-    night_cd_m2_ = kRec709FromXyz * glm::dvec3{night::night_floor_xyz(level_rad, light.straight_horizon_rad,
-                                                                      light.eye_height_m, false, 0.0)};
+    night_cd_m2_ =
+        light.night != nullptr ? glm::dvec3{light.night_share * light.night->horizon_rgb()} : glm::dvec3{0.0};
 
     const Made& latest = building_ ? back_made_ : front_made_;
     const double step_rad = largest_step_rad(latest, wanted);

@@ -206,7 +206,7 @@ void Dome::look_up(const SkyLight& light, double azimuth_rad, Change change) {
     for (const Row& row : rows_) {
         const double elevation = light.horizon_elevation_rad + row.above_horizon_rad;
         for (const double azimuth : azimuths_rad_) {
-            const glm::vec3 rgb = light.rgb_cd_m2(elevation, azimuth_rad + azimuth, row.side);
+            const glm::vec3 rgb = light.smooth_rgb_cd_m2(elevation, azimuth_rad + azimuth, row.side);
             if (shift) from_[out] += rgb - to_[out];
             to_[out++] = rgb;
         }
@@ -350,8 +350,8 @@ double Dome::triangulate(const SkyLight& light, double azimuth_rad, const shader
             light.horizon_elevation_rad + 0.5 * (low.above_horizon_rad + high.above_horizon_rad);
         const double azimuth =
             azimuth_rad + 0.5 * (azimuths_rad_[quad.column] + azimuths_rad_[quad.column + 1]);
-        const DiagonalErrors missed =
-            diagonal_errors(quad, shaders32::shown(light.rgb_cd_m2(elevation, azimuth, low.side), tone32));
+        const DiagonalErrors missed = diagonal_errors(
+            quad, shaders32::shown(light.smooth_rgb_cd_m2(elevation, azimuth, low.side), tone32));
         largest = std::max(largest, std::min(missed.rising, missed.falling));
         return missed.rising < missed.falling;
     };

@@ -159,9 +159,9 @@ void DomeBend::place_samples(const SkyLight& light, double edge_rad) {
     crowd_at_horizon(sky_, 0.5 * kPi - light.horizon_elevation_rad, true);
     crowd_at_horizon(ground_, 0.5 * kPi + light.horizon_elevation_rad, false);
     columns_.clear();
-    const bool mirrored = light.sun.view == nullptr || light.moon.view == nullptr;
+    const bool two_sources = light.sun.view != nullptr && light.moon.view != nullptr;
     const double second = light.moon.source.azimuth_rad - light.sun.source.azimuth_rad;
-    spread_columns(columns_.positions_rad(), mirrored ? std::nullopt : std::optional(second));
+    spread_columns(columns_.positions_rad(), two_sources ? std::optional(second) : std::nullopt);
 }
 
 void DomeBend::measure(const SkyLight& light, std::span<const shaders64::ToneParameters> tones,
@@ -186,7 +186,8 @@ void DomeBend::measure_rows(const SkyLight& light, const shaders32::ToneParamete
         const auto x = profile.positions_rad();
         each_meridian(light, azimuth_rad, kMeridians_rad, [&](double azimuth) {
             for (std::size_t i = 0; i < x.size(); ++i) {
-                const glm::vec3 rgb = light.rgb_cd_m2(light.horizon_elevation_rad + x[i], azimuth, side);
+                const glm::vec3 rgb =
+                    light.smooth_rgb_cd_m2(light.horizon_elevation_rad + x[i], azimuth, side);
                 codes_[i] = 255.0 * glm::dvec3{shaders32::shown(rgb, tone)};
             }
             for (std::size_t i = 1; i + 1 < x.size(); ++i)
@@ -201,11 +202,12 @@ void DomeBend::measure_rows(const SkyLight& light, const shaders32::ToneParamete
 void DomeBend::measure_columns(const SkyLight& light, const shaders32::ToneParameters& tone,
                                double azimuth_rad) {
     const double horizon = light.horizon_elevation_rad;
-    const bool mirrored = light.sun.view == nullptr || light.moon.view == nullptr;
+    // The dark sky has a symmetry of its own.
+    const bool mirrored = (light.sun.view == nullptr || light.moon.view == nullptr) && light.night == nullptr;
     const auto x = columns_.positions_rad();
     const std::size_t first = mirrored ? x.size() / 2 - 1 : 0;
     const auto code = [&](double above_rad, std::size_t i, Side side) {
-        const glm::vec3 rgb = light.rgb_cd_m2(horizon + above_rad, azimuth_rad + x[i], side);
+        const glm::vec3 rgb = light.smooth_rgb_cd_m2(horizon + above_rad, azimuth_rad + x[i], side);
         return 255.0 * glm::dvec3{shaders32::shown(rgb, tone)};
     };
     for (const double above : kCircles_rad) {

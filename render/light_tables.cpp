@@ -38,6 +38,13 @@ double sunlight_lux(const sky::AirModel& model) {
 
 }  // namespace
 
+glm::vec3 moon_scale_xyz(const Moon& moon, const sky::AirModel& model, double share) noexcept {
+    const double sunlit = std::max(moon.sunlit, kFromUmbra);
+    return glm::vec3{night::moon_tint_xyz() *
+                     (share * sunlit * night::moon_illuminance_lux(moon.phase_angle_rad, moon.distance_km) /
+                      sunlight_lux(model))};
+}
+
 LightTables::LightTables(const sky::SkyViewSize& size) : sun_(size), moon_(size) {}
 
 sky::RefractionRow LightTables::refraction(const Scene& scene) const noexcept {
@@ -185,6 +192,7 @@ void LightTables::update(const Scene& scene, const Plan& plan) {
                        sun_trend_.ahead(sky::source_step_rad(sun_rad)), height_m, height_ahead_m});
     update_view(moon_, {plan.needs(Pass::kMoonSky), plan.moon_share > 0.0, false, moon_rad,
                         moon_trend_.ahead(sky::source_step_rad(moon_rad)), height_m, height_ahead_m});
+    if (plan.needs(Pass::kNightSky) && night_.update(scene, *air_)) ++revision_;
 }
 
 SkyLight LightTables::light(const Scene& scene, const Plan& plan,
@@ -199,6 +207,10 @@ SkyLight LightTables::light(const Scene& scene, const Plan& plan,
         albedo -= air_->model().ground_mirror_albedo;
     light.ground_albedo = sky::luminous_albedo(air_->model(), diffuse);
     light.sea = sea_ ? &*sea_ : nullptr;
+    if (plan.needs(Pass::kNightSky)) {
+        light.night = &night_;
+        light.night_share = static_cast<float>(plan.night_share);
+    }
     const auto reflected = [](const View& view) { return view.front_made.sea ? &view.front_sea : nullptr; };
     if (plan.sun_share > 0.0 && sun_.front_made.air != 0) {
         const double unobscured = std::max(scene.sun.unobscured, kFromBeyondShadow);
@@ -207,11 +219,8 @@ SkyLight LightTables::light(const Scene& scene, const Plan& plan,
                      glm::vec3{static_cast<float>(share)}, reflected(sun_)};
     }
     if (plan.moon_share > 0.0 && moon_.front_made.air != 0) {
-        const double share = plan.moon_share * std::max(scene.moon.sunlit, kFromUmbra) *
-                             night::moon_illuminance_lux(scene.moon.phase_angle_rad, scene.moon.distance_km) /
-                             sunlight_lux(air_->model());
         light.moon = {&moon_.front, horizontal_of(scene.moon.direction_enu),
-                      glm::vec3{night::moon_tint_xyz() * share}, reflected(moon_)};
+                      moon_scale_xyz(scene.moon, air_->model(), plan.moon_share), reflected(moon_)};
     }
     return light;
 }

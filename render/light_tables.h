@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "render/air_builder.h"
+#include "render/night/night_sky.h"
 #include "render/plan.h"
 #include "render/scene.h"
 #include "render/sky/air_tables.h"
@@ -19,6 +20,9 @@
 #include "render/sky_light.h"
 
 namespace skyig::render {
+
+/// Factors on X, Y, Z of sunlit air that make it moonlit. \param share  of the light that is drawn
+[[nodiscard]] glm::vec3 moon_scale_xyz(const Moon& moon, const sky::AirModel& model, double share) noexcept;
 
 class LightTables {
   public:
@@ -131,6 +135,7 @@ class LightTables {
 
     View sun_;
     View moon_;
+    night::NightSky night_;
     std::uint64_t revision_ = 0;
     bool jumped_ = false;
 };

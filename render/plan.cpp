@@ -6,6 +6,9 @@
 #include "render/dome_bend.h"
 #include "render/eye/point_threshold.h"
 #include "render/geometry.h"
+#include "render/night/milky_way_map.h"
+#include "render/night/natural_light.h"
+#include "render/night/night_sky.h"
 #include "render/night/star_colour.h"
 #include "render/sky/sea_surface.h"
 #include "render/sky/staleness.h"
@@ -77,9 +80,11 @@ Cost cost_of(Pass pass) {
             return Cost::kNewAir;
         case Pass::kSunSky:
         case Pass::kMoonSky:
+        case Pass::kNightSky:
             return Cost::kNewTable;
         case Pass::kDome:
         case Pass::kWaves:
+        case Pass::kMilkyWay:
         case Pass::kStars:
         case Pass::kCorona:
         case Pass::kSunDisc:
@@ -126,11 +131,24 @@ void plan_skies(Plan& plan, const Scene& scene, const Held& held, double sun_rad
     }
 }
 
+// A dark sky with a town in it has 0.02 cd/m2; twilight falls from 10 to 2 while it is faded in.
+void plan_night(Plan& plan, double sun_rad) {
+    plan.night_share = smooth_step(-3.0 * kDegree, -5.0 * kDegree, sun_rad);
+    if (plan.forced[static_cast<std::size_t>(Pass::kNightSky)]) plan.night_share = 1.0;
+    put(plan, Pass::kNightSky,
+        plan.night_share > 0.0 ? Verdict{true, "the sky is dark enough to show it"}
+                               : Verdict{false, "below half a code: daylight outshines it"});
+    plan.passes[static_cast<std::size_t>(Pass::kNightSky)].resolution = {
+        night::NightSky::kSkyRows + night::NightSky::kGroundRows, night::NightSky::kColumns};
+    put(plan, Pass::kMilkyWay, {false, "not decided yet"});
+}
+
 }  // namespace
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables", "sun sky", "moon sky", "dome", "waves", "stars", "corona", "sun disc", "moon disc"};
+        "air tables", "sun sky", "moon sky", "night sky", "dome",    "waves",
+        "milky way",  "stars",   "corona",   "sun disc",  "moon disc"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -169,6 +187,7 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     const bool air_stale = !held.air_valid || !held.air_fresh;
     put(plan, Pass::kAirTables, {air_stale, air_stale ? "the air is new" : "the air has not changed"});
     plan_skies(plan, scene, held, sun_rad, moon_rad);
+    plan_night(plan, sun_rad);
     put(plan, Pass::kDome, {true, "smooth light of all directions"});
     put(plan, Pass::kWaves, {false, "not decided yet"});
     put(plan, Pass::kStars, {false, "not decided yet"});
@@ -229,6 +248,23 @@ void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double 
     } else {
         put(plan, Pass::kStars, {true, "some stars outshine the sky"});
     }
+}
+
+void plan_milky_way(Plan& plan, const Scene& scene, double most_codes) noexcept {
+    constexpr double kLeast_codes = 0.5;
+    if (plan.night_share <= 0.0) {
+        put(plan, Pass::kMilkyWay, {false, "below half a code: daylight outshines it"});
+    } else if (scene.night.model != NightModel::kSources) {
+        put(plan, Pass::kMilkyWay, {false, "the night sky's model has none"});
+    } else if (night::starlight_share(scene.night) <= 0.0) {
+        put(plan, Pass::kMilkyWay, {false, "switched off"});
+    } else if (most_codes < kLeast_codes) {
+        put(plan, Pass::kMilkyWay, {false, "below half a code before this sky"});
+    } else {
+        put(plan, Pass::kMilkyWay, {true, "it shows before this sky"});
+    }
+    plan.passes[static_cast<std::size_t>(Pass::kMilkyWay)].resolution = {night::MilkyWayMap::kHeight,
+                                                                         night::MilkyWayMap::kWidth};
 }
 
 void plan_all_stars(Plan& plan, const Scene& scene) noexcept {

@@ -72,6 +72,8 @@ struct Plan {
     /// longer counts.
     double sun_share = 0.0;
     double moon_share = 0.0;
+    /// How much of the dark sky is drawn, 0..1.
+    double night_share = 0.0;
     /// How much of the corona is drawn, 0..1: the last of the Sun's disc dazzles.
     double corona_share = 0.0;
     StarPlan stars;
@@ -93,8 +95,8 @@ struct Plan {
 [[nodiscard]] double direction_table_error_codes(const sky::SkyViewSize& size) noexcept;
 
 /// \param scene  the frame; \param held  what is in the tables; \param refraction  of the frame's eye and
-/// air. Deterministic: equal input gives an equal plan. Dome, waves and stars are left for plan_dome(),
-/// plan_waves() and plan_stars(), which need the light that this plan leads to.
+/// air. Deterministic: equal input gives an equal plan. Dome, waves, stars and the Milky Way are left for
+/// plan_dome(), plan_waves(), plan_stars() and plan_milky_way(), which need the light that this plan leads to.
 [[nodiscard]] Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction,
                              const Quality& quality = {}) noexcept;
 
@@ -110,7 +112,11 @@ void plan_waves(Plan& plan, const Scene& scene, const sky::SeaWaves& waves, bool
 /// \param half_code_mag  fainter ones change no picture
 void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept;
 
-/// The same where light is drawn without an eye: every star and planet that is switched on.
+/// Decides on the Milky Way. \param most_codes  what its brightest part would add to the darkest sky, display
+/// codes
+void plan_milky_way(Plan& plan, const Scene& scene, double most_codes) noexcept;
+
+/// Stars where light is drawn without an eye: every star and planet that is switched on.
 void plan_all_stars(Plan& plan, const Scene& scene) noexcept;
 
 /// Faintest star that a practised eye sees before a background, V magnitude at the eye.

@@ -11,14 +11,16 @@ enum class Pass {
     kAirTables,  ///< optical columns and multiple scattering of a new air
     kSunSky,     ///< direction table of sunlit air
     kMoonSky,    ///< direction table of moonlit air
+    kNightSky,   ///< direction table of airglow, zodiacal light, even starlight, towns
     kDome,       ///< smooth light of all directions, toned at the vertices
     kWaves,      ///< waves of the sea, where pixels resolve them
+    kMilkyWay,   ///< what the Milky Way adds to even starlight
     kStars,
     kCorona,  ///< what is left of the Sun in a total eclipse
     kSunDisc,
     kMoonDisc,
 };
-inline constexpr std::size_t kPassCount = 9;
+inline constexpr std::size_t kPassCount = 11;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 

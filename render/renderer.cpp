@@ -12,6 +12,7 @@
 #include "render/gl/framebuffer.h"
 #include "render/gl/mesh.h"
 #include "render/gl/program.h"
+#include "render/milky_way_pass.h"
 #include "render/screens.h"
 #include "render/sea_pass.h"
 #include "render/sky_frame.h"
@@ -78,6 +79,7 @@ struct Renderer::Impl {
     std::uint64_t triangles_revision = 0;
     std::uint64_t vertices_revision = 0;
     SeaPass sea{screens.distinct.size()};
+    MilkyWayPass milky_way{screens.distinct.size()};
     StarPass stars;
     Corona corona;
     SunDisc sun_disc;
@@ -155,6 +157,8 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     m.frame.prepare(scene, m.pixel_rad);
     m.upload_dome();
     if (m.frame.sea_rows() > 0) m.sea.prepare(m.frame, m.display.dither);
+    if (m.frame.light().milky_way.map != nullptr)
+        m.milky_way.prepare(m.frame.milky_way(), m.frame.light(), m.display.dither);
     m.report.stars_drawn = 0;
     if (m.frame.plan().needs(Pass::kStars)) {
         m.stars.prepare(scene, m.frame, m.pixel_rad);
@@ -182,6 +186,11 @@ void Renderer::draw(std::size_t channel) {
     gl::set_blend(gl::Blend::kReplace);
     m.draw_dome(channel, clip_from_enu);
 
+    if (m.frame.light().milky_way.map != nullptr) {
+        gl::set_blend(gl::Blend::kAdd);
+        m.milky_way.draw(m.frame.milky_way(), m.channels[channel], m.screens.of_channel[channel],
+                         clip_from_enu);
+    }
     if (plan.needs(Pass::kStars)) {
         gl::set_blend(gl::Blend::kAdd);
         m.stars.draw(m.channels[channel], view,

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "render/channel.h"
+#include "render/night_settings.h"
 #include "render/sky_settings.h"
 
 namespace skyig::render {
@@ -158,6 +159,8 @@ struct Scene {
     Sea sea;
     /// Which model draws the day sky.
     SkySettings sky;
+    /// What shines in the dark one.
+    NightSettings night;
 
     std::array<ChannelView, kMaxChannels> views{};
     std::size_t view_count = 0;

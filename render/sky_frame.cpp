@@ -8,6 +8,8 @@
 
 #include "render/eye/exposure.h"
 #include "render/eye/tone_curve.h"
+#include "render/night/natural_light.h"
+#include "render/night/starlight.h"
 #include "render/star_field.h"
 
 namespace skyig::render {
@@ -53,6 +55,7 @@ SkyFrame::SkyFrame(const DisplaySettings& display, const Quality& quality, std::
       tables_(direction_table_size(quality)),
       dome_(displays_.size()),
       sea_(displays_.size()),
+      milky_way_(displays_.size()),
       display_tones_(displays_.size()),
       tones_(displays_.size()),
       clipped_(displays_.size()) {
@@ -67,6 +70,7 @@ void SkyFrame::prepare(const Scene& scene, double pixel_rad) {
     light_ = tables_.light(scene, plan_, refraction);
     adapt(scene);
     tone_screens(scene, pixel_rad);
+    refresh_milky_way(scene);
     refresh_dome(pixel_rad);
     refresh_sea(scene, pixel_rad);
     tell_dome();
@@ -105,11 +109,14 @@ void SkyFrame::tone_screens(const Scene& scene, double pixel_rad) {
         if (eye::probe_directions()[i].above_horizon_rad > 0.0)
             darkest_sky = std::min(darkest_sky, probes_cd_m2_[i]);
     }
+    milky_way_codes_ = 0.0;
     // The faintest star that any screen shows.
     double faintest_mag = -std::numeric_limits<double>::infinity();
     for (std::size_t screen = 0; screen < display_tones_.size(); ++screen) {
         display_tones_[screen] = eye::tone_parameters(displays_[screen], adaptation_.luminance_cd_m2());
         clipped_[screen] = clipped_light(probes_cd_m2_, display_tones_[screen]);
+        milky_way_codes_ =
+            std::max(milky_way_codes_, milky_way_most_codes(darkest_sky, display_tones_[screen]));
         faintest_mag = std::max(faintest_mag, half_code_mag(darkest_sky, display_tones_[screen], pixel_rad));
     }
     if (target_ == Target::kDisplay) {
@@ -125,6 +132,21 @@ void SkyFrame::tone_screens(const Scene& scene, double pixel_rad) {
 double SkyFrame::luminance_cd_m2(double elevation_rad, double azimuth_rad) const {
     return static_cast<double>(
         shaders32::luminance_709(light_.rgb_cd_m2(elevation_rad, azimuth_rad, Side::kByElevation)));
+}
+
+// Adaptation leaves the belt out, so that it may depend on what the eye sees at all.
+void SkyFrame::refresh_milky_way(const Scene& scene) {
+    plan_milky_way(plan_, scene, milky_way_codes_);
+    const bool first = shaded_.tables == 0 || tables_.jumped();
+    if (!plan_.needs(Pass::kMilkyWay) || !milky_way_.make_map(scene.night, first)) {
+        milky_way_shown_ = false;
+        return;
+    }
+    light_.milky_way = {&milky_way_.map(),
+                        night::galactic_from_gcrs() * glm::transpose(scene.stars.enu_from_gcrs),
+                        static_cast<float>(plan_.night_share * night::starlight_share(scene.night))};
+    milky_way_.shade(light_, tones_, first || !milky_way_shown_);
+    milky_way_shown_ = true;
 }
 
 void SkyFrame::refresh_dome(double pixel_rad) {
@@ -231,6 +253,12 @@ glm::dvec3 SkyFrame::waves_colour(const glm::dvec3& direction_enu, const glm::dv
                             shaders64::mirroring_slope(to_eye, sea.source_enu), sea.variance);
     return glm::mix(shaders64::shown(mean_cd_m2, tones_[screen]), shaders64::shown(lit, tones_[screen]),
                     shaders64::shaded_share(waves_.trains.front().number_rad_m, footprint_m));
+}
+
+glm::dvec3 SkyFrame::exact_dome_colour(const glm::dvec3& direction_enu, std::size_t screen) const {
+    const Horizontal at = horizontal_of(direction_enu);
+    const glm::vec3 rgb = light_.smooth_rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation);
+    return shaders64::shown(glm::dvec3{rgb}, tones_[screen]);
 }
 
 }  // namespace skyig::render

@@ -9,6 +9,7 @@
 #include "render/dome.h"
 #include "render/eye/adaptation.h"
 #include "render/light_tables.h"
+#include "render/milky_way.h"
 #include "render/plan.h"
 #include "render/scene.h"
 #include "render/sea_mesh.h"
@@ -59,6 +60,7 @@ class SkyFrame {
     [[nodiscard]] const LightTables& tables() const noexcept { return tables_; }
     [[nodiscard]] Dome& dome() noexcept { return dome_; }
     [[nodiscard]] const Dome& dome() const noexcept { return dome_; }
+    [[nodiscard]] MilkyWay& milky_way() noexcept { return milky_way_; }
     /// From the dome's mesh, (direction, 1), to the scene.
     [[nodiscard]] glm::dmat4 enu_from_mesh() const noexcept {
         return dome_.enu_from_mesh(mesh_azimuth_rad_, light_.horizon_elevation_rad);
@@ -83,8 +85,11 @@ class SkyFrame {
 
     /// The colour that the frame's light and tone curve give for one direction, before dither.
     [[nodiscard]] glm::dvec3 exact_colour(const glm::dvec3& direction_enu, std::size_t screen = 0) const;
+    /// The same of what the dome carries: without the Milky Way's belt.
+    [[nodiscard]] glm::dvec3 exact_dome_colour(const glm::dvec3& direction_enu, std::size_t screen = 0) const;
 
   private:
+    void refresh_milky_way(const Scene& scene);
     void adapt(const Scene& scene);
     void tone_screens(const Scene& scene, double pixel_rad);
     [[nodiscard]] double luminance_cd_m2(double elevation_rad, double azimuth_rad) const;
@@ -102,6 +107,9 @@ class SkyFrame {
     DomeBend bend_;
     Dome dome_;
     SeaMesh sea_;
+    MilkyWay milky_way_;
+    bool milky_way_shown_ = false;
+    double milky_way_codes_ = 0.0;
 
     Plan plan_;
     SkyLight light_;

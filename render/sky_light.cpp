@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "render/colour.h"
-#include "render/night/night_floor.h"
+#include "render/night/natural_light.h"
 
 namespace skyig::render {
 
@@ -25,16 +25,25 @@ glm::vec3 xyz_of(const LitAir& lit, double above_horizon_rad, double azimuth_rad
 }
 
 // Of the surface under the dark sky, where the straight ray meets it.
-double dark_ground_cd_m2(const SkyLight& light, double straight_rad) {
-    const double diffuse = light.ground_albedo * night::kDarkSky_lux / std::numbers::pi;
-    if (light.sea == nullptr) return diffuse;
+glm::vec3 dark_ground_cd_m2(const SkyLight& light, double straight_rad, double azimuth_rad) {
+    const auto diffuse = static_cast<float>(light.ground_albedo / std::numbers::pi);
+    const glm::vec3 scattered = diffuse * light.night->ground_rgb_lux();
+    if (light.sea == nullptr) return scattered;
     const double level = std::cos(straight_rad) * (1.0 + std::max(light.eye_height_m, 0.0) / kEarthRadius_m);
     const double up = std::sqrt(std::max(0.0, (1.0 - level) * (1.0 + level)));
     // Waves lift what a level mirror would show of the horizon.
     const double mirrored_rad =
         std::asin(std::min(1.0, std::hypot(up, std::sqrt(light.sea->variance().total()))));
-    return diffuse + light.sea->mean_reflectance(up) *
-                         static_cast<double>(night::night_floor_xyz(mirrored_rad, 0.0, 0.0, false, 0.0).y);
+    return scattered + static_cast<float>(light.sea->mean_reflectance(up)) *
+                           light.night->sky_rgb(mirrored_rad - light.straight_horizon_rad, azimuth_rad);
+}
+
+glm::vec3 dark_sky(const SkyLight& light, double straight_rad, double azimuth_rad, bool ground) {
+    if (light.night == nullptr) return glm::vec3{0.0F};
+    const double above_rad = straight_rad - light.straight_horizon_rad;
+    return light.night_share * (ground ? light.night->before_ground(
+                                             dark_ground_cd_m2(light, straight_rad, azimuth_rad), above_rad)
+                                       : light.night->sky_rgb(above_rad, azimuth_rad));
 }
 
 }  // namespace
@@ -48,15 +57,34 @@ double SkyLight::straight_elevation_rad(double elevation_rad) const noexcept {
            shift_rad * std::tan(horizon_elevation_rad) * std::cos(elevation_rad) / std::sin(elevation_rad);
 }
 
-glm::vec3 SkyLight::rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept {
+glm::vec3 SkyLight::smooth_rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept {
     const double straight_rad = straight_elevation_rad(elevation_rad);
     const double above_rad = straight_rad - straight_horizon_rad;
     const bool ground =
         side == Side::kGround || (side == Side::kByElevation && elevation_rad < horizon_elevation_rad);
     return rec709_from_xyz(xyz_of(sun, above_rad, azimuth_rad, ground) +
-                           xyz_of(moon, above_rad, azimuth_rad, ground) +
-                           night::night_floor_xyz(straight_rad, straight_horizon_rad, eye_height_m, ground,
-                                                  ground ? dark_ground_cd_m2(*this, straight_rad) : 0.0));
+                           xyz_of(moon, above_rad, azimuth_rad, ground)) +
+           dark_sky(*this, straight_rad, azimuth_rad, ground);
+}
+
+glm::vec3 SkyLight::rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept {
+    const glm::vec3 smooth = smooth_rgb_cd_m2(elevation_rad, azimuth_rad, side);
+    if (milky_way.map == nullptr || side == Side::kGround) return smooth;
+    const double shown = belt_above_horizon(elevation_rad);
+    if (!(shown > 0.0)) return smooth;
+    const double belt_cd_m2 = milky_way.map->luminance_cd_m2(milky_way.galactic_from_enu *
+                                                             direction_of({elevation_rad, azimuth_rad}));
+    return smooth + static_cast<float>(shown * belt_cd_m2) * belt_passes(elevation_rad);
+}
+
+glm::vec3 SkyLight::belt_passes(double elevation_rad) const noexcept {
+    if (night == nullptr) return glm::vec3{0.0F};
+    const double above_rad = straight_elevation_rad(elevation_rad) - straight_horizon_rad;
+    return milky_way.share * night->transmittance(above_rad) * glm::vec3{night::natural_colours().starlight};
+}
+
+double SkyLight::belt_above_horizon(double elevation_rad) const noexcept {
+    return std::clamp((std::sin(elevation_rad) - std::sin(horizon_elevation_rad)) / kBeltEdge, 0.0, 1.0);
 }
 
 const LitAir& SkyLight::glittering() const noexcept {

@@ -5,6 +5,8 @@
 #include <glm/glm.hpp>
 
 #include "render/geometry.h"
+#include "render/night/milky_way_map.h"
+#include "render/night/night_sky.h"
 #include "render/sky/refraction.h"
 #include "render/sky/sea_surface.h"
 #include "render/sky/sea_view.h"
@@ -20,6 +22,13 @@ struct LitAir {
     glm::vec3 scale_xyz{0.0F};
     /// What the sea reflects of it and of its sky; null over land. It lags as `view` does.
     const sky::SeaView* sea = nullptr;
+};
+
+/// What the Milky Way adds to even starlight.
+struct LitBelt {
+    const night::MilkyWayMap* map = nullptr;  ///< null: it is not drawn
+    glm::dmat3 galactic_from_enu{1.0};
+    float share = 1.0F;  ///< of the map's light
 };
 
 /// Which side of the horizon a direction is taken from when it lies on the edge.
@@ -54,6 +63,10 @@ struct SkyLight {
     double ground_albedo = 0.1;
     /// Null over land.
     const sky::SeaSurface* sea = nullptr;
+    /// The dark sky, null where it does not count, and how much of it is drawn.
+    const night::NightSky* night = nullptr;
+    float night_share = 1.0F;
+    LitBelt milky_way;
 
     /// Elevation of the straight ray that stands in the tables for the curved one seen at `elevation_rad`: it
     /// comes as near to the ground. The same above the level; on the horizon the straight horizon (0.2 deg
@@ -68,6 +81,18 @@ struct SkyLight {
     [[nodiscard]] SlopeLight of_slopes(double elevation_rad, double azimuth_rad) const noexcept;
     /// The one source whose glitter waves break up: the Sun while its light counts, else the Moon.
     [[nodiscard]] const LitAir& glittering() const noexcept;
+    /// The same without the Milky Way's belt: what the dome carries.
+    [[nodiscard]] glm::vec3 smooth_rgb_cd_m2(double elevation_rad, double azimuth_rad,
+                                             Side side) const noexcept;
+
+    /// Factors of the belt's luminance outside the air that make its light at the eye, without
+    /// belt_above_horizon(). Linear Rec.709.
+    [[nodiscard]] glm::vec3 belt_passes(double elevation_rad) const noexcept;
+
+    /// Share of the belt over the horizon, where it ends over 0.6 deg; in the form that the shader has.
+    [[nodiscard]] double belt_above_horizon(double elevation_rad) const noexcept;
+
+    static constexpr double kBeltEdge = 0.01;
 };
 
 }  // namespace skyig::render

@@ -42,7 +42,7 @@ FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, 
       answers_(config.host),
       inbox_(config, parts.world, parts.log),
       scenes_(ephemeris_model(config), std::move(orientation), sky_settings(config.sky),
-              ground_settings(config.ground)),
+              ground_settings(config.ground), night_settings(config.night)),
       times_(config.channels.size()) {}
 
 void FrameLoop::warm_up() {

@@ -99,6 +99,12 @@ static_assert(
         static_cast<int>(config::SkyModel::kPreetham) == static_cast<int>(render::SkyModel::kPreetham) &&
         static_cast<int>(config::SkyModel::kWindlight) == static_cast<int>(render::SkyModel::kWindlight),
     "one order of models in settings and scene");
+static_assert(
+    static_cast<int>(config::NightModel::kSources) == static_cast<int>(render::NightModel::kSources) &&
+        static_cast<int>(config::NightModel::kMean) == static_cast<int>(render::NightModel::kMean) &&
+        static_cast<int>(config::NightModel::kSeed) == static_cast<int>(render::NightModel::kSeed) &&
+        config::kMaxCities <= render::kMaxCities,
+    "one order of models, and room for every city");
 
 }  // namespace
 
@@ -110,6 +116,25 @@ render::SkySettings sky_settings(const config::Sky& sky) noexcept {
         .preetham = {.turbidity = sky.preetham.turbidity, .zenith_of_multi = sky.preetham.zenith_of_multi},
         .windlight = windlight_settings(sky.windlight),
         .star_scintillation = sky.star_scintillation};
+}
+
+render::NightSettings night_settings(const config::Night& night) noexcept {
+    render::NightSettings settings{.model = static_cast<render::NightModel>(night.model),
+                                   .airglow = night.airglow,
+                                   .zodiacal = night.zodiacal,
+                                   .starlight = night.starlight,
+                                   .galactic_light = night.galactic_light,
+                                   .structure = night.milky_way_structure,
+                                   .seed = static_cast<std::uint32_t>(night.seed),
+                                   .solar_activity = night.solar_activity};
+    for (const config::City& city : night.cities) {
+        settings.cities[settings.city_count++] = {.latitude_deg = city.latitude_deg,
+                                                  .longitude_deg = city.longitude_deg,
+                                                  .radius_m = 1e3 * city.radius_km,
+                                                  .zenith_cd_m2 = city.zenith_cd_m2,
+                                                  .population = city.population};
+    }
+    return settings;
 }
 
 render::Ground ground_settings(const config::Ground& ground) noexcept {

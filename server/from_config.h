@@ -30,6 +30,8 @@ namespace skyig::server {
 
 [[nodiscard]] render::SkySettings sky_settings(const config::Sky& sky) noexcept;
 
+[[nodiscard]] render::NightSettings night_settings(const config::Night& night) noexcept;
+
 /// What the settings say of the ground; wind and waves are the world's.
 [[nodiscard]] render::Ground ground_settings(const config::Ground& ground) noexcept;
 

@@ -166,6 +166,7 @@ render::Scene SceneBuilder::build(const world::World& world, std::uint64_t frame
     scene.ground = ground_of(ground_, world, regions);
     scene.sea = sea_of(world, regions);
     scene.sky = sky_;
+    scene.night = night_;
     if (sky_.model == render::SkyModel::kWindlight && sky_.windlight.places_sun)
         scene.sun.direction_enu = render::placed_sun_enu(sky_.windlight);
     return scene;

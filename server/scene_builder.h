@@ -34,10 +34,15 @@ class SceneBuilder {
     /// \param orientation  UT1 and pole as measured; without rows the built-in tables hold
     /// \param ground  below the air; its wind is the world's, its snow too once a host tells of some
     /// \param sky  what draws the day sky; where it says the Sun's place, the Sun stands there
+    /// \param night  what shines in the dark one
     explicit SceneBuilder(ephemeris::Model model = ephemeris::Model::kSeries,
                           ephemeris::EarthOrientation orientation = {}, const render::SkySettings& sky = {},
-                          const render::Ground& ground = {}) noexcept
-        : orientation_(std::move(orientation)), sky_(sky), ground_(ground), clockwork_(model) {}
+                          const render::Ground& ground = {}, const render::NightSettings& night = {}) noexcept
+        : orientation_(std::move(orientation)),
+          sky_(sky),
+          ground_(ground),
+          night_(night),
+          clockwork_(model) {}
 
     [[nodiscard]] render::Scene build(const world::World& world, std::uint64_t frame_number);
 
@@ -57,6 +62,7 @@ class SceneBuilder {
     ephemeris::EarthOrientation orientation_;
     render::SkySettings sky_;
     render::Ground ground_;
+    render::NightSettings night_;
     ephemeris::OffsetsOfDay offsets_;
     ephemeris::SkyClockwork clockwork_;
     /// Of the frame at hand: east-north-up at the ownship from that at the eye, row by row as the library

@@ -12,6 +12,7 @@
 #include "clients/skyig/ephem/almanac.h"
 #include "clients/skyig/ephem/star_name.h"
 #include "clients/skyig/options.h"
+#include "clients/skyig/sky_command.h"
 #include "clients/skyig/status/http_get.h"
 #include "clients/skyig/still/still_command.h"
 #include "clients/skyig/tone_command.h"
@@ -314,29 +315,6 @@ void add_status(CLI::App& app, StatusOptions& options) {
         ->type_name("PORT")
         ->excludes(url);
     app.add_flag("--json", options.json, "tell it as JSON, in a watch one line each time");
-}
-
-void add_sky(CLI::App& app, SkyOptions& options) {
-    CLI::Option* model =
-        app.add_option("--model", options.model, "model of the day sky (the file's, or multi)")
-            ->check(sky_model_name())
-            ->type_name("MODEL");
-    app.add_flag("--truth", options.truth, "the reference solver instead (some tenths of a second a row)")
-        ->excludes(model);
-    app.add_option("--atmosphere", options.atmosphere, "A, B (those of the truth tables) or a TOML file (B)")
-        ->type_name("AIR");
-    app.add_option("--cases", options.cases_path, "the table to fill in (CSV); - is standard input")
-        ->required()
-        ->type_name("FILE");
-    app.add_option("-o,--out", options.out_path,
-                   "where the filled table goes; - is standard output (so it is)")
-        ->type_name("FILE");
-    app.footer(
-        "The table needs altitude_m (above the model's ground), sun_zenith_deg, view_zenith_deg and "
-        "rel_azimuth_deg (from the Sun's); every row keeps its columns and gets skyig_Y_cd_m2, skyig_x, "
-        "skyig_y (0, 0, 0 where it is black). Sun at 1 AU, no refraction. A TOML file holds [air] and [sky] "
-        "as in a configuration, or [planet] (docs/configuration.md). A bad row is told on stderr, its new "
-        "columns stay empty, and the exit status is 1.");
 }
 
 /// The first word that is no option, when it is no verb either.

@@ -178,6 +178,16 @@ struct SkyOptions {
     bool truth = false;
     /// "A", "B" or a file.
     std::string atmosphere = "B";
+    /// Adds the dark sky's own light, and the Moon's where it is given.
+    bool night = false;
+    /// Already checked; empty: the dark sky's means. With it latitude and longitude, degrees.
+    std::string utc;
+    double latitude_deg = 0.0;
+    double longitude_deg = 0.0;
+    /// Given together.
+    std::optional<double> moon_phase_angle_deg;
+    std::optional<double> moon_elevation_deg;
+    std::optional<double> moon_rel_azimuth_deg;
     /// "-" = standard input.
     std::string cases_path;
     /// Empty or "-" = standard output.

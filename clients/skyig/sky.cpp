@@ -6,14 +6,40 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "clients/skyig/sky/model_solver.h"
+#include "clients/skyig/sky/night_solver.h"
 #include "clients/skyig/sky/truth_solver.h"
 #include "clients/table_streams.h"
+#include "server/ephemeris/sky_state.h"
+#include "server/ephemeris/time.h"
 
 namespace skyig::clients {
 
 namespace {
+
+std::unique_ptr<sky::Solver> night_solver(const SkyOptions& options, const sky::Atmosphere& atmosphere) {
+    std::optional<sky::MoonPlace> moon;
+    if (options.moon_phase_angle_deg)
+        moon = {*options.moon_phase_angle_deg, *options.moon_elevation_deg,
+                options.moon_rel_azimuth_deg.value_or(180.0)};
+    std::optional<sky::RealSky> real;
+    if (!options.utc.empty()) {
+        namespace ephemeris = server::ephemeris;
+        const ephemeris::SkyState state =
+            ephemeris::compute_sky_state(ephemeris::make_instant(ephemeris::parse_utc(options.utc).value()),
+                                         {options.latitude_deg, options.longitude_deg, 0.0});
+        real = {state.enu_from_gcrs, state.sun.direction_enu, options.latitude_deg, options.longitude_deg};
+    }
+    return std::make_unique<sky::NightSolver>(atmosphere, moon, real);
+}
+
+std::unique_ptr<sky::Solver> solver_of(const SkyOptions& options, const sky::Atmosphere& atmosphere) {
+    if (options.truth) return std::make_unique<sky::TruthSolver>(atmosphere.law);
+    if (options.night) return night_solver(options, atmosphere);
+    return std::make_unique<sky::ModelSolver>(atmosphere);
+}
 
 int solve(const SkyOptions& options) {
     sky::Atmosphere atmosphere = sky::load_atmosphere(options.atmosphere);
@@ -23,8 +49,7 @@ int solve(const SkyOptions& options) {
         atmosphere.sky.model = static_cast<render::SkyModel>(at - render::kSkyModelNames.begin());
     }
     TableStreams streams(options.cases_path, options.out_path, "--out");
-    const auto solver = options.truth ? std::unique_ptr<sky::Solver>(new sky::TruthSolver(atmosphere.law))
-                                      : std::make_unique<sky::ModelSolver>(atmosphere);
+    const std::unique_ptr<sky::Solver> solver = solver_of(options, atmosphere);
     const sky::CaseCount count = sky::run_cases(
         streams.input(), streams.input_name(), [&]() -> std::ostream& { return streams.open_output(); },
         std::cerr, *solver);

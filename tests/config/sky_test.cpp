@@ -92,5 +92,42 @@ TEST(SkySettings, TellsWhatIsWrongInTheirTables) {
     EXPECT_THAT(error_of(with("[sky.preetham]\nturbidity = 1.5")), HasSubstr("2..10"));
 }
 
+TEST(NightSettings, ReadsSourcesAndCities) {
+    const LoadResult result = parse_config(with(R"(
+[night]
+model = "mean"
+zodiacal = false
+solar_activity = 0.7
+milky_way_structure = 0.5
+seed = 9
+[[night.city]]
+latitude_deg = 47.4
+longitude_deg = 8.5
+population = 400000
+)"),
+                                           "site.toml");
+    ASSERT_TRUE(result) << to_text(result.errors.front());
+    const Night& night = result.config->night;
+    EXPECT_EQ(night.model, NightModel::kMean);
+    EXPECT_FALSE(night.zodiacal);
+    EXPECT_TRUE(night.airglow);
+    EXPECT_EQ(night.solar_activity, 0.7);
+    EXPECT_EQ(night.milky_way_structure, 0.5);
+    EXPECT_EQ(night.seed, 9);
+    ASSERT_EQ(night.cities.size(), 1U);
+    EXPECT_EQ(night.cities[0].population, 400000.0);
+    EXPECT_EQ(night.cities[0].radius_km, 8.0);
+}
+
+TEST(NightSettings, RefusesWhatACityCannotBe) {
+    EXPECT_THAT(error_of(with("[[night.city]]\nlatitude_deg = 1\nlongitude_deg = 2\nzenith_cd_m2 = 0.1\n"
+                              "population = 5\n")),
+                HasSubstr("night.city[1].population: stands beside zenith_cd_m2"));
+    EXPECT_THAT(error_of(with("[[night.city]]\nlatitude_deg = 1\n")),
+                HasSubstr("night.city[1].longitude_deg"));
+    EXPECT_THAT(error_of(with("[night]\ncity = 3\n")), HasSubstr("[[night.city]]"));
+    EXPECT_THAT(error_of(with("[night]\nairglo = true\n")), HasSubstr("airglow"));
+}
+
 }  // namespace
 }  // namespace skyig::config

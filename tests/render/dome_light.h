@@ -114,7 +114,7 @@ inline CodeErrors interpolation_errors(const SkyFrame& frame, int count, double 
         const auto drawn = dome.colour(direction);
         EXPECT_TRUE(drawn);
         if (!drawn) continue;
-        const glm::dvec3 d = glm::abs(*drawn - frame.exact_colour(direction)) * 255.0;
+        const glm::dvec3 d = glm::abs(*drawn - frame.exact_dome_colour(direction)) * 255.0;
         errors.push_back(std::max({d.x, d.y, d.z}));
     }
     std::sort(errors.begin(), errors.end());

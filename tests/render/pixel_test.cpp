@@ -66,6 +66,7 @@ std::vector<Scene> forty_scenes(const Channel& channel) {
         for (const double sun_deg : {80.0, 35.0, 8.0, 0.5, -1.5, -6.0, -12.0, -30.0}) {
             Scene scene = make_scene(sun_deg, 120.0, 25.0, 250.0, height_m);
             scene.stars.enabled = scene.sun.enabled = scene.moon.enabled = false;
+            scene.night.starlight = scene.night.galactic_light = false;
             scene.time_s = 100.0 * ++view;
             const double half_deg = view % 3 == 0 ? 80.0 : view % 3 == 1 ? 30.0 : 4.0;
             add_view(

@@ -19,6 +19,7 @@ class StarPass : public GlTest {};
 // A moonless night with one star straight ahead: the view is turned to it.
 Scene night_towards(const glm::dvec3& direction_enu) {
     Scene scene = make_scene(-40.0, 0.0, -40.0, 90.0, 0.0);
+    scene.night.starlight = scene.night.galactic_light = false;  // an even sky behind the star
     const Horizontal at = horizontal_of(direction_enu);
     const glm::dmat3 view = view_from_enu(at.azimuth_rad / kDegree, at.elevation_rad / kDegree, 0.0);
     add_view(scene, symmetric_frustum(5.0, 128, 128), view);

@@ -26,8 +26,8 @@ render::sky::PlanetAir planet_of(const config::Planet& planet) {
 
 Atmosphere load_atmosphere(const std::string& name) {
     using namespace render::sky;
-    if (name == "A") return {atmosphere_a(), atmosphere_a_law(), {}};
-    if (name == "B") return {atmosphere_b(), atmosphere_b_law(), {}};
+    if (name == "A") return {atmosphere_a(), atmosphere_a_law(), {}, {}};
+    if (name == "B") return {atmosphere_b(), atmosphere_b_law(), {}, {}};
     const config::AirFileResult read = config::load_air_file(name);
     if (!read) {
         AtmosphereErrors errors;
@@ -37,12 +37,13 @@ Atmosphere load_atmosphere(const std::string& name) {
     }
     const config::AirFile& file = *read.file;
     const render::SkySettings sky = server::sky_settings(file.sky);
+    const render::NightSettings night = server::night_settings(file.night);
     if (file.planet) {
         const PlanetAir planet = planet_of(*file.planet);
-        return {planet_air(planet), planet_law(planet), sky};
+        return {planet_air(planet), planet_law(planet), sky, night};
     }
     const render::Air air = server::air_settings(file.air);
-    return {air_model(air), air_law(air), sky};
+    return {air_model(air), air_law(air), sky, night};
 }
 
 }  // namespace skyig::clients::sky

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "render/night_settings.h"
 #include "render/sky/air_law.h"
 #include "render/sky/air_model.h"
 #include "render/sky_settings.h"
@@ -16,6 +17,8 @@ struct Atmosphere {
     render::sky::AirLaw law;
     /// Parameters of the models, from the file's [sky].
     render::SkySettings sky;
+    /// From the file's [night].
+    render::NightSettings night;
 };
 
 /// Every error of a file, a line each.
@@ -23,8 +26,8 @@ struct AtmosphereErrors {
     std::vector<std::string> lines;
 };
 
-/// \param name  "A", "B" (the media of the truth tables), or a TOML file with [air] and [sky] as in a
-/// configuration
+/// \param name  "A", "B" (the media of the truth tables), or a TOML file with [air], [sky] and [night] as in
+/// a configuration
 ///              or with [planet]
 /// \throws AtmosphereErrors
 [[nodiscard]] Atmosphere load_atmosphere(const std::string& name);

@@ -67,7 +67,8 @@ server::SceneBuilder scene_builder(const StillOptions& options, const config::Co
         throw StillErrors{};
     }
     return server::SceneBuilder(server::ephemeris_model(config), std::move(*orientation.orientation),
-                                server::sky_settings(config.sky), server::ground_settings(config.ground));
+                                server::sky_settings(config.sky), server::ground_settings(config.ground),
+                                server::night_settings(config.night));
 }
 
 }  // namespace

@@ -1,0 +1,69 @@
+#include "config/night.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+#include <string_view>
+
+#include "config/schema.h"
+
+namespace skyig::config {
+namespace {
+
+constexpr std::array<std::string_view, 3> kModelNames{"sources", "mean", "seed"};
+
+void read_city(TableReader& table, City& city) {
+    table.number("latitude_deg", city.latitude_deg, {-90.0, 90.0, "degrees"});
+    table.number("longitude_deg", city.longitude_deg, {-360.0, 360.0, "degrees"});
+    table.require("latitude_deg", "degrees north");
+    table.require("longitude_deg", "degrees east");
+    table.number("radius_km", city.radius_km, {0.1, 100.0, "km"});
+    const Value* zenith = table.number("zenith_cd_m2", city.zenith_cd_m2, {0.0, 1.0, "cd/m2"});
+    const Value* population = table.number("population", city.population, {0.0, 1e8, {}});
+    if (zenith != nullptr && population != nullptr)
+        table.error(*population, "population", "stands beside zenith_cd_m2; only one of them may be given");
+    table.finish();
+}
+
+void read_cities(TableReader& night, ErrorList& errors, std::vector<City>& cities) {
+    const Value* value = night.any("city");
+    if (value == nullptr) return;
+    const auto* list = std::get_if<Array>(&value->data);
+    if (list == nullptr) {
+        night.error(*value, "city", "must be tables: write [[night.city]] in double brackets");
+        return;
+    }
+    if (list->items.size() > kMaxCities) {
+        night.error(*value, "city",
+                    fmt::format("is there {} times; at most {}", list->items.size(), kMaxCities));
+        return;
+    }
+    for (const Value& item : list->items) {
+        const auto* table = std::get_if<Table>(&item.data);
+        if (table == nullptr) {
+            night.error(item, "city", fmt::format("holds {}; write [[night.city]] tables", type_name(item)));
+            continue;
+        }
+        TableReader reader(errors, table, item.place, fmt::format("night.city[{}]", cities.size() + 1));
+        read_city(reader, cities.emplace_back());
+    }
+}
+
+}  // namespace
+
+void read_night(TableReader table, ErrorList& errors, Night& night) {
+    std::size_t index = 0;
+    if (table.choice("model", index, kModelNames) != nullptr) night.model = static_cast<NightModel>(index);
+    table.boolean("airglow", night.airglow);
+    table.boolean("zodiacal", night.zodiacal);
+    table.boolean("starlight", night.starlight);
+    table.boolean("galactic_light", night.galactic_light);
+    table.number("milky_way_structure", night.milky_way_structure, {0.0, 1.0, {}});
+    table.integer("seed", night.seed, 0, std::numeric_limits<int>::max());
+    table.number("solar_activity", night.solar_activity, {0.0, 1.0, {}});
+    read_cities(table, errors, night.cities);
+    table.finish();
+}
+
+}  // namespace skyig::config

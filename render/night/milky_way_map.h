@@ -1,0 +1,59 @@
+// The Milky Way's belt with clouds and dust lanes: what it adds to even starlight, by galactic coordinates.
+// Free of GL.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace skyig::render::night {
+
+/// A grid of |latitude| <= kBelt_rad, longitude from 0 to 360 deg, of luminance outside the air of the whole
+/// starlight (both shares on). Its mean over some 10 deg is that of the fit (starlight.h); within, fractal
+/// noise of a lognormal spread of 0.35 and what everyone knows by place: the Great Rift from Cygnus to
+/// Centaurus, the Coalsack, the star clouds of Scutum, Sagittarius, Cygnus, Carina and Norma.
+///
+/// Texels hold the luminance warped to t = (1 + x / kWarp_cd_m2)^(1/2.2) - 1: before a night sky display
+/// codes go nearly straight with it.
+class MilkyWayMap {
+  public:
+    static constexpr int kWidth = 721;  ///< the last column is the first again
+    static constexpr int kHeight = 121;
+    static constexpr int kRowsAFrame = 2;
+    static constexpr double kWarp_cd_m2 = 2e-4;
+
+    [[nodiscard]] static double warped(double luminance_cd_m2) noexcept;
+    [[nodiscard]] static double unwarped(double t) noexcept;
+
+    /// \param structure  0..1, how much of the detail there is; \param seed  of the noise. Allocates.
+    void begin(double structure, std::uint32_t seed);
+    /// At most so many rows further; true when all are there.
+    bool build_rows(int most_rows);
+    [[nodiscard]] bool complete() const noexcept { return built_; }
+    [[nodiscard]] bool begun() const noexcept { return !texels_.empty(); }
+
+    /// Rows from the lowest latitude. Precondition: complete().
+    [[nodiscard]] std::span<const float> texels() const noexcept { return texels_; }
+
+    /// Linear between texels as the GPU has it, cd/m2; 0 outside the belt. \param direction  unit vector,
+    /// galactic axes
+    [[nodiscard]] double luminance_cd_m2(const glm::dvec3& direction) const noexcept;
+
+    /// Where on the map, 0..1 from edge to edge through texel centres.
+    [[nodiscard]] static glm::dvec2 place(double longitude_rad, double latitude_rad) noexcept;
+
+  private:
+    void detail_row(int row);
+    void finish();
+
+    double structure_ = 1.0;
+    std::uint32_t seed_ = 0;
+    int next_row_ = 0;
+    bool built_ = false;
+    std::vector<float> texels_;
+    std::vector<float> smooth_;
+};
+
+}  // namespace skyig::render::night

@@ -1,0 +1,262 @@
+// The dark sky, twilight and moonlight against what is known of them by number, asked through the light that
+// is drawn.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+
+#include "render/colour.h"
+#include "render/light_tables.h"
+#include "render/night/airglow.h"
+#include "render/night/light_dome.h"
+#include "render/night/milky_way_map.h"
+#include "render/night/natural_light.h"
+#include "render/night/starlight.h"
+#include "render/night/zodiacal_light.h"
+#include "render/shaders/shared.h"
+#include "tests/csv.h"
+#include "tests/render/scenes.h"
+
+namespace skyig::render {
+namespace {
+
+using namespace tests;
+using skyig::tests::read_csv;
+
+constexpr double kPi = std::numbers::pi;
+
+double magnitude(double cd_m2) {
+    return -2.5 * std::log10(cd_m2 / 1.0807e5);
+}
+
+// The frame's own light, as SkyFrame has it.
+class Drawn {
+  public:
+    Scene scene = make_scene(-40.0, 0.0, -40.0, 180.0, 0.0);
+
+    Drawn() { scene.night.model = NightModel::kMean; }
+
+    SkyLight light() {
+        const sky::RefractionRow refraction = tables_.refraction(scene);
+        Plan plan;
+        // A table that is only a little old is made anew in slices.
+        constexpr int kFrames = 20;
+        for (int frame = 0; frame < kFrames; ++frame) {
+            plan = make_plan(scene, tables_.held(scene), refraction);
+            tables_.update(scene, plan);
+        }
+        return tables_.light(scene, plan, refraction);
+    }
+    double zenith_cd_m2() {
+        return static_cast<double>(shaders32::luminance_709(light().rgb_cd_m2(0.5 * kPi, 0.0, Side::kSky)));
+    }
+    /// Of level ground at the eye by the sky alone.
+    double sky_lux() {
+        const SkyLight now = light();
+        constexpr int kRings = 24;
+        constexpr int kAround = 24;
+        double sum = 0.0;
+        for (int ring = 0; ring < kRings; ++ring) {
+            const double sine = (ring + 0.5) / kRings;
+            for (int i = 0; i < kAround; ++i) {
+                sum += sine * static_cast<double>(shaders32::luminance_709(now.rgb_cd_m2(
+                                  std::asin(sine), 2.0 * kPi * (i + 0.5) / kAround, Side::kSky)));
+            }
+        }
+        return 2.0 * kPi * sum / (kRings * kAround);
+    }
+    const sky::AirTables& air() const { return tables_.air(); }
+    LightTables& tables() { return tables_; }
+
+  private:
+    LightTables tables_;
+};
+
+double anchor(const std::string& name) {
+    for (const auto& row : read_csv(SKYIG_TEST_DATA "/night/natural_night.csv")) {
+        if (row.text("case") == name) return row.number("luminance_cd_m2_or_lux");
+    }
+    ADD_FAILURE() << "no anchor " << name;
+    return 1.0;
+}
+
+void expect_anchor(const std::string& name, double ours) {
+    const double off = magnitude(ours) - magnitude(anchor(name));
+    std::printf("%-50s %.3g, known %.3g: %+.2f mag\n", name.c_str(), ours, anchor(name), off);
+    EXPECT_NEAR(off, 0.0, 0.3) << name;
+}
+
+// Luminance outside the air, mean over a disc of 2 deg: the resolution of the measurements.
+double belt_cd_m2(const night::MilkyWayMap& map, double l_deg, double b_deg) {
+    double sum = 0.0;
+    int count = 0;
+    for (double y = -2.0; y <= 2.0; y += 0.5) {
+        for (double x = -2.0; x <= 2.0; x += 0.5) {
+            if (x * x + y * y > 4.0) continue;
+            const double l = (l_deg + x) * kDegree;
+            const double b = (b_deg + y) * kDegree;
+            sum += map.luminance_cd_m2({std::cos(b) * std::cos(l), std::cos(b) * std::sin(l), std::sin(b)}) +
+                   night::kS10_cd_m2 * night::starlight_s10(l, b).even;
+            ++count;
+        }
+    }
+    return sum / count;
+}
+
+TEST(NaturalNight, AnchorsAreMetWithinThreeTenthsOfAMagnitude) {
+    Drawn drawn;
+    expect_anchor("natural zenith dark site typical", drawn.zenith_cd_m2());
+    expect_anchor("horizontal illuminance clear moonless natural", drawn.sky_lux());
+    const auto zodiacal = [](double longitude_deg, double latitude_deg) {
+        return night::kS10_cd_m2 * night::zodiacal_s10(longitude_deg * kDegree, latitude_deg * kDegree);
+    };
+    expect_anchor("ecliptic pole zodiacal only", zodiacal(90.0, 90.0));
+    expect_anchor("gegenschein zodiacal only", zodiacal(180.0, 0.0));
+    expect_anchor("zodiacal cone 45 deg from the Sun on the ecliptic", zodiacal(45.0, 0.0));
+    const night::Starlight pole = night::starlight_s10(0.0, 0.5 * kPi);
+    expect_anchor("galactic pole starlight only", night::kS10_cd_m2 * (pole.even + pole.belt));
+    night::MilkyWayMap map;
+    map.begin(1.0, 1);
+    map.build_rows(night::MilkyWayMap::kHeight);
+    expect_anchor("Milky Way l=0 b=-4", belt_cd_m2(map, 0.0, -4.0));
+    expect_anchor("airglow zenith solar minimum", night::kS10_cd_m2 * night::airglow_zenith_s10(0.0) *
+                                                      night::airglow_path(0.5 * kPi, 0.0, false).far);
+}
+
+TEST(NaturalNight, TownsMakeTheirZenith) {
+    Drawn drawn;
+    drawn.scene.night.city_count = 1;
+    const double natural = drawn.zenith_cd_m2();
+    for (const char* name : {"Bortle 4 rural zenith", "Bortle 6 suburban zenith", "Bortle 8 city zenith"}) {
+        drawn.scene.night.cities[0] = {.latitude_deg = drawn.scene.eye.latitude_deg,
+                                       .longitude_deg = drawn.scene.eye.longitude_deg,
+                                       .zenith_cd_m2 = anchor(name) - natural};
+        expect_anchor(name, drawn.zenith_cd_m2());
+    }
+}
+
+// The seed's sum of constants is 22.2 mag/arcsec2.
+TEST(NaturalNight, SeedsConstantsMakeANaturalSky) {
+    Drawn drawn;
+    drawn.scene.night.model = NightModel::kSeed;
+    const double ours = magnitude(drawn.zenith_cd_m2());
+    std::printf("zenith by the seed's constants %.2f mag/arcsec2\n", ours);
+    EXPECT_NEAR(ours, 22.2, 0.3);
+}
+
+TEST(Twilight, DrawnZenithFollowsMeasurements) {
+    Drawn drawn;
+    double sum = 0.0, squares = 0.0;
+    int count = 0, missed = 0;
+    for (const auto& row : read_csv(SKYIG_TEST_DATA "/night/twilight_sky_luminance.csv")) {
+        const double sun_deg = row.number("sun_alt_deg");
+        if (row.text("view") != "zenith" || sun_deg > 0.0) continue;
+        const std::string& site = row.text("site");
+        drawn.scene.eye.height_m = site.find("Maryland") != std::string::npos     ? 30.0
+                                   : site.find("Sacramento") != std::string::npos ? 2800.0
+                                                                                  : 2635.0;
+        drawn.scene.sun.direction_enu = at(sun_deg, 0.0);
+        const double off = magnitude(drawn.zenith_cd_m2()) - row.number("mag_arcsec2");
+        std::printf("sun %5.1f deg, %-32s %+.2f mag\n", sun_deg, site.c_str(), off);
+        sum += off;
+        squares += off * off;
+        ++count;
+        missed += std::abs(off) > 0.5 ? 1 : 0;
+        EXPECT_NEAR(off, 0.0, 0.65);
+    }
+    ASSERT_GE(count, 15);
+    std::printf("%d points: mean %+.2f mag, rms %.2f, %d beyond 0.5 mag\n", count, sum / count,
+                std::sqrt(squares / count), missed);
+    EXPECT_LE(missed, 4);
+    const auto at_sun = [&](double sun_deg) {
+        drawn.scene.sun.direction_enu = at(sun_deg, 0.0);
+        return magnitude(drawn.zenith_cd_m2());
+    };
+    drawn.scene.eye.height_m = 2635.0;
+    const double slope = (at_sun(-10.0) - at_sun(-5.0)) / 5.0;
+    std::printf("slope %.2f mag/deg, measured 1.23\n", slope);
+    EXPECT_NEAR(slope, 1.23, 0.123);
+}
+
+TEST(Moonlight, ZenithIsThatOfKrisciunasAndSchaefer) {
+    Drawn drawn;
+    // The table's air takes 0.172 mag from the zenith, which scenes' default air does at sea level.
+    static_cast<void>(drawn.light());
+    const double extinction_mag = -2.5 * std::log10(drawn.air().transmittance_rgb(0.0, 0.5 * kPi).y);
+    std::printf("extinction %.3f mag\n", extinction_mag);
+    EXPECT_NEAR(extinction_mag, 0.172, 0.03);
+    double largest = 0.0;
+    for (const auto& row : read_csv(SKYIG_TEST_DATA "/night/moonlit_zenith_sky.csv")) {
+        drawn.scene.moon.direction_enu = at(row.number("moon_alt_deg"), 0.0);
+        drawn.scene.moon.phase_angle_rad = row.number("phase_angle_deg") * kDegree;
+        const double off = magnitude(drawn.zenith_cd_m2()) - row.number("total_mag_arcsec2");
+        std::printf("phase %3.0f deg, Moon at %2.0f deg: %+.2f mag\n", row.number("phase_angle_deg"),
+                    row.number("moon_alt_deg"), off);
+        // Ours brightens by 0.33 mag in opposition, the table's Moon does not.
+        const bool opposition = row.number("phase_angle_deg") < 7.0;
+        EXPECT_GT(off, opposition ? -0.63 : -0.3);
+        EXPECT_LT(off, 0.3);
+        if (!opposition) largest = std::max(largest, std::abs(off));
+    }
+    std::printf("largest %.2f mag, without opposition\n", largest);
+}
+
+// The tables are for an average clear sky; scenes' default air is clearer.
+TEST(GroundIlluminance, SunsIsTheTablesWithinAFactor) {
+    const auto rows = read_csv(SKYIG_TEST_DATA "/night/sun_ground_illuminance.csv");
+    for (const double visibility_m : {80e3, 40e3}) {
+        Drawn drawn;
+        drawn.scene.air.visibility_m = visibility_m;
+        double above = 0.0, below = 0.0;
+        for (const auto& row : rows) {
+            const double sun_deg = row.number("sun_alt_deg");
+            drawn.scene.sun.direction_enu = at(sun_deg, 0.0);
+            const double sky = drawn.sky_lux();
+            const double seen_rad = drawn.light().refraction.apparent_from_true(sun_deg * kDegree);
+            const double direct =
+                drawn.air().direct_sun_xyz(0.0, seen_rad).y * std::max(0.0, std::sin(seen_rad));
+            const double ratio = (sky + direct) / row.number("E_h_lux");
+            std::printf("%2.0f km, Sun %6.2f deg: %.4g lux, ratio %.2f\n", 1e-3 * visibility_m, sun_deg,
+                        sky + direct, ratio);
+            double& largest = sun_deg >= -6.0 ? above : below;
+            largest = std::max(largest, std::abs(std::log(ratio)));
+        }
+        std::printf("visibility %.0f km: factor %.2f above -6 deg, %.2f below\n", 1e-3 * visibility_m,
+                    std::exp(above), std::exp(below));
+        EXPECT_LT(std::exp(above), visibility_m < 50e3 ? 1.35 : 1.45);
+        EXPECT_LT(std::exp(below), 2.0);
+    }
+}
+
+TEST(GroundIlluminance, MoonsIsTheTablesWithinAFactor) {
+    Drawn drawn;
+    drawn.scene.night.airglow = drawn.scene.night.zodiacal = false;
+    drawn.scene.night.starlight = drawn.scene.night.galactic_light = false;
+    drawn.scene.air.visibility_m = 40e3;
+    double largest = 0.0;
+    for (const auto& row : read_csv(SKYIG_TEST_DATA "/night/moon_ground_illuminance.csv")) {
+        const double moon_deg = row.number("moon_alt_deg");
+        const double phase_deg = row.number("phase_angle_deg");
+        if (phase_deg < 7.0) continue;  // the table leaves the opposition surge out
+        drawn.scene.moon.direction_enu = at(moon_deg, 0.0);
+        drawn.scene.moon.phase_angle_rad = phase_deg * kDegree;
+        const double sky = drawn.sky_lux();
+        const double seen_rad = drawn.light().refraction.apparent_from_true(moon_deg * kDegree);
+        const double scale =
+            static_cast<double>(moon_scale_xyz(drawn.scene.moon, drawn.air().model(), 1.0).y);
+        const double direct =
+            scale * drawn.air().direct_sun_xyz(0.0, seen_rad).y * std::max(0.0, std::sin(seen_rad));
+        const double ratio = (sky + direct) / row.number("E_h_lux");
+        // Beyond 120 deg the two magnitude laws part, by 0.14 mag at 150.
+        const double bound = phase_deg > 120.0 ? 1.7 : 1.4;
+        if (phase_deg <= 120.0) largest = std::max(largest, std::abs(std::log(ratio)));
+        EXPECT_LT(std::abs(std::log(ratio)), std::log(bound)) << phase_deg << ' ' << moon_deg << ' ' << ratio;
+    }
+    std::printf("largest factor %.2f up to a phase angle of 120 deg\n", std::exp(largest));
+}
+
+}  // namespace
+}  // namespace skyig::render
