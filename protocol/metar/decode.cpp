@@ -138,8 +138,7 @@ class Decoder {
     bool read_air() {
         if (looks_like_wind(group_)) return read_wind_group();
         if (looks_like_variation(group_)) return read_sector();
-        if (looks_like_pressure(group_))
-            return keep(report_.pressure, read_pressure(group_), Fault::kPressure);
+        if (looks_like_pressure(group_)) return read_pressure_group();
         if (looks_like_sea(group_)) return keep(report_.sea, read_sea(group_), Fault::kSea);
         if (looks_like_miles(group_)) return keep_visibility(read_miles(group_, 0));
         if (const auto whole = read_whole_miles(group_); whole && looks_like_miles(peek())) {
@@ -154,6 +153,12 @@ class Decoder {
         const auto wind = read_wind(group_);
         if (wind && !wind->variable && !wind->direction_deg_true && !wind->speed) return true;
         return keep(report_.wind, wind, Fault::kWind);
+    }
+    bool read_pressure_group() {
+        const auto pressure = read_pressure(group_);
+        // Some countries tell it in both units.
+        if (pressure && report_.pressure && pressure->in_inches != report_.pressure->in_inches) return true;
+        return keep(report_.pressure, pressure, Fault::kPressure);
     }
     bool read_sector() {
         const auto sector = read_variation(group_);
@@ -185,7 +190,7 @@ class Decoder {
 
     bool read_sky() {
         if (group_ == "CAVOK") {
-            report_.cavok = true;
+            report_.cavok = !report_.visibility;
             return keep_visibility(read_visibility("9999"));
         }
         if (const auto code = find_code<ClearCode>(kClearCodes, group_)) {

@@ -181,13 +181,19 @@ std::optional<Pressure> read_pressure(std::string_view group) noexcept {
     constexpr double kHighest_hpa = 1100.0;
     Pressure out;
     Scan scan(group);
-    out.in_inches = scan.accept("A") || group.ends_with("INS");
-    if (!out.in_inches || group.front() == 'Q') scan.accept(group.starts_with("QNH") ? "QNH" : "Q");
+    const bool inches = scan.accept("A");
+    if (!inches && !scan.accept("QNH")) scan.accept("Q");
     const auto value = scan.digits(4);
     if (!value) return std::nullopt;
-    const bool unit = scan.done() || scan.rest() == (out.in_inches ? "INS" : "HPA");
+    out.in_inches = inches || scan.accept("INS");
+    if (!out.in_inches && !scan.accept("HPA") && scan.accept("/")) {
+        // The same in inches behind it: Q1013/29.92.
+        const bool whole = scan.digits(2).has_value();
+        scan.accept(".");
+        if (!whole || !scan.digits(2)) return std::nullopt;
+    }
     out.qnh_hpa = out.in_inches ? *value * kHpaPerInch / 100.0 : *value;
-    if (!unit || out.qnh_hpa < kLowest_hpa || out.qnh_hpa > kHighest_hpa) return std::nullopt;
+    if (!scan.done() || out.qnh_hpa < kLowest_hpa || out.qnh_hpa > kHighest_hpa) return std::nullopt;
     return out;
 }
 

@@ -130,6 +130,7 @@ struct Cloud {
 enum class ClearCode : std::uint8_t { kSkc, kClr, kNsc, kNcd, kEnd };
 
 struct Pressure {
+    /// 850..1100; the first of two that are told in two units.
     double qnh_hpa = 0.0;
     /// Reported in hundredths of an inch of mercury.
     bool in_inches = false;

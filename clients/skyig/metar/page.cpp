@@ -191,7 +191,7 @@ std::string to_text(const Report& report) {
     page.line("colour", joined(report.colour_states, " "));
     page.line("trend", report.trend);
     page.line("remarks", report.remarks);
-    page.line("unknown", joined(report.unparsed, " "));
+    page.line("not read", joined(report.unparsed, " "));
     return std::move(page).take();
 }
 

@@ -211,6 +211,10 @@ TEST(MetarAir, TemperaturesAndPressure) {
     EXPECT_NEAR(read("A2992").pressure->qnh_hpa, 1013.2075888, 1e-6);
     EXPECT_TRUE(read("A2992").pressure->in_inches);
     EXPECT_NEAR(read("QNH2992INS").pressure->qnh_hpa, 1013.2075888, 1e-6);
+    for (const char* both : {"Q1013/29.92", "Q1013/2992", "Q1013 A2992"}) {
+        EXPECT_EQ(read(both).pressure->qnh_hpa, 1013.0);
+        EXPECT_FALSE(read(both).pressure->in_inches);
+    }
     EXPECT_FALSE(read("Q////").pressure);
     EXPECT_FALSE(read("A////").pressure);
 }
