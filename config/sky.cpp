@@ -63,6 +63,7 @@ void read_sky(TableReader table, Sky& sky) {
     table.boolean("moon", sky.moon);
     table.boolean("stars", sky.stars);
     table.number("star_intensity_pct", sky.star_intensity_pct, {0.0, 100.0, "%"});
+    table.boolean("star_scintillation", sky.star_scintillation);
     std::size_t index = 0;
     if (table.choice("model", index, kModelNames) != nullptr) sky.model = static_cast<SkyModel>(index);
     read_day_cycle(table.table("daycycle"), sky.day_cycle);

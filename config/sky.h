@@ -58,6 +58,8 @@ struct Sky {
     bool moon = true;
     bool stars = true;
     double star_intensity_pct = 100.0;
+    /// They twinkle.
+    bool star_scintillation = true;
 
     SkyModel model = SkyModel::kMulti;
     DayCycleSky day_cycle;

@@ -240,6 +240,11 @@ void Dome::encode_one(const std::vector<glm::vec3>& light, const shaders32::Tone
                       std::vector<DomeVertex>& vertices, glm::vec3 DomeVertex::*out) {
     for (std::size_t i = 0; i < light.size(); ++i)
         codes_[i] = shaders32::shown(light[i], tone);
+    if (shaders32::stores_luminance(tone)) {
+        for (std::size_t i = 0; i < light.size(); ++i)
+            vertices[i].*out = codes_[i];
+        return;
+    }
     std::size_t i = 0;
     for (std::size_t row = 0; row < rows_.size(); ++row) {
         for (std::size_t column = 0; column < stride(); ++column, ++i)
@@ -361,10 +366,15 @@ void Dome::begin_fade() noexcept {
             largest = std::max(largest, largest_of(glm::abs(vertex.to - vertex.from)));
     }
     const double frames = std::ceil(255.0 * static_cast<double>(largest) / kFadeStep_codes);
-    fade_step_ = 1.0 / std::clamp(frames, 1.0, static_cast<double>(kLongestFade));
+    const int gap = std::max({frames_since_replaced_, earlier_gaps_[0], earlier_gaps_[1]});
+    const int longest = std::clamp(2 * gap, kHurriedFade, kLongestFade);
+    fade_step_ = 1.0 / std::clamp(frames, 1.0, static_cast<double>(longest));
+    earlier_gaps_ = {earlier_gaps_[1], frames_since_replaced_};
+    frames_since_replaced_ = 0;
 }
 
 void Dome::step() noexcept {
+    frames_since_replaced_ = std::min(frames_since_replaced_ + 1, kLongestFade);
     share_ = std::min(1.0, share_ + fade_step_);
     if (share_ > 1.0 - 1e-9) share_ = 1.0;
 }

@@ -3,6 +3,7 @@
 // because a table was replaced fades in over some frames. Free of GL.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -59,6 +60,9 @@ class Dome {
     /// frames.
     static constexpr double kFadeStep_codes = 0.125;
     static constexpr int kLongestFade = 60;
+    /// Where replacements keep following one another fast, a fade takes twice the frames between them (the
+    /// longest of three times), but not less than this: what is shown keeps up with a day in a hurry.
+    static constexpr int kHurriedFade = 12;
     static constexpr std::size_t kMaxVertices =
         static_cast<std::size_t>(DomeBend::kMost.sky_rows + DomeBend::kMost.ground_rows + 2) *
         static_cast<std::size_t>(DomeBend::kMost.columns + 1);
@@ -148,8 +152,10 @@ class Dome {
     DomePatches patches_;
     double share_ = 1.0;
     double fade_step_ = 1.0;
-    bool replaced_ = false;  // by the last look_up()
-    bool laid_ = false;      // anew, and not encoded since
+    int frames_since_replaced_ = kLongestFade;
+    std::array<int, 2> earlier_gaps_{kLongestFade, kLongestFade};  // between replacements, frames
+    bool replaced_ = false;                                        // by the last look_up()
+    bool laid_ = false;                                            // anew, and not encoded since
 };
 
 }  // namespace skyig::render

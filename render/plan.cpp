@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "render/dome_bend.h"
+#include "render/eye/point_threshold.h"
 #include "render/geometry.h"
+#include "render/night/star_colour.h"
 #include "render/sky/staleness.h"
 
 namespace skyig::render {
@@ -16,8 +18,11 @@ constexpr double kDegree = glm::radians(1.0);
 constexpr double kBrightestStar_mag = -1.46;
 // Planets below this stand under the horizon wherever a cockpit may be; from higher up they only cost a pass.
 constexpr double kLowestPlanet_sine = -0.1;
-// Beyond the eye's limit a star still brightens its pixels by some codes: it fades out over the last 0.8 mag.
-constexpr double kStarMargin_mag = 1.5;
+// A star is seen in part down to 0.94 of the threshold.
+constexpr double kStarMargin_mag = 0.07;
+// Three standard deviations of the light of a star on the horizon at sea level, and what thins them.
+constexpr double kStrongestFlicker = 1.5;
+constexpr double kFlickerHeight_m = 8e3;
 constexpr double kNoStarIsFainter_mag = 99.0;
 
 double brightest_point_mag(const Scene& scene) {
@@ -133,14 +138,7 @@ std::string_view cost_name(Cost cost) noexcept {
 }
 
 double faintest_visible_mag(double background_cd_m2) noexcept {
-    const double nanolamberts = std::max(background_cd_m2, 1e-9) / 3.1831e-6;
-    const auto magnitude = [nanolamberts](double log_c, double log_k) {
-        const double root = 1.0 + std::sqrt(std::pow(10.0, log_k) * nanolamberts);
-        return -16.57 - 2.5 * (log_c + 2.0 * std::log10(root));
-    };
-    // Published as two branches with a step of 0.08 mag at 1500 nL; they cross close by, so the larger is
-    // both smooth enough and right on either side.
-    return std::max(magnitude(-9.80, -1.90), magnitude(-8.35, -5.90));
+    return -2.5 * std::log10(eye::threshold_lux(background_cd_m2) / night::star_illuminance_lux(0.0));
 }
 
 sky::SkyViewSize direction_table_size(const Quality& quality) noexcept {
@@ -192,17 +190,34 @@ DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& qu
 }
 
 void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept {
-    plan.star_limit_mag = faintest_visible_mag(background_cd_m2) + kStarMargin_mag;
     const double brightest_mag = brightest_point_mag(scene);
-    const bool outshone = plan.star_limit_mag < brightest_mag || half_code_mag < brightest_mag;
-    if (plan.forced[static_cast<std::size_t>(Pass::kStars)]) plan.star_limit_mag = kNoStarIsFainter_mag;
+    const double limit_mag = faintest_visible_mag(background_cd_m2) + kStarMargin_mag;
+    const bool forced = plan.forced[static_cast<std::size_t>(Pass::kStars)];
+    const bool outshone = limit_mag < brightest_mag || half_code_mag < brightest_mag;
+    const double flicker =
+        kStrongestFlicker * std::exp(-std::max(scene.eye.height_m, 0.0) / kFlickerHeight_m);
+    plan.stars.limit_mag = forced ? kNoStarIsFainter_mag : limit_mag;
+    plan.stars.seen_only = !forced;
+    plan.stars.twinkle_limit_mag = half_code_mag + 2.5 * std::log10(std::max(flicker, 1e-9));
+    plan.stars.twinkle = scene.sky.star_scintillation && brightest_mag < plan.stars.twinkle_limit_mag;
     if (!scene.stars.enabled || scene.stars.intensity <= 0.0) {
         put(plan, Pass::kStars, {false, "switched off"});
     } else if (outshone) {
         put(plan, Pass::kStars, {false, "the sky outshines every star and planet"});
+    } else if (plan.stars.twinkle) {
+        put(plan, Pass::kStars, {true, "some stars outshine the sky, and twinkle"});
     } else {
         put(plan, Pass::kStars, {true, "some stars outshine the sky"});
     }
+}
+
+void plan_all_stars(Plan& plan, const Scene& scene) noexcept {
+    const bool on = scene.stars.enabled && scene.stars.intensity > 0.0;
+    plan.stars = {.limit_mag = kNoStarIsFainter_mag,
+                  .seen_only = false,
+                  .twinkle = scene.sky.star_scintillation,
+                  .twinkle_limit_mag = kNoStarIsFainter_mag};
+    put(plan, Pass::kStars, {on, on ? "every star is light" : "switched off"});
 }
 
 }  // namespace skyig::render

@@ -52,6 +52,17 @@ struct Held {
     double moon_sky_height_m = 0.0;
 };
 
+/// What of the stars and planets is drawn.
+struct StarPlan {
+    /// V magnitude outside the air; fainter ones are left out.
+    double limit_mag = 0.0;
+    /// Each only as the eye sees it before the sky behind it. \see seen_share()
+    bool seen_only = true;
+    /// They flicker: those that are brighter than this outside the air, on others it would not show.
+    bool twinkle = false;
+    double twinkle_limit_mag = 0.0;
+};
+
 struct Plan {
     std::array<PlannedPass, kPassCount> passes{};
     /// Which model makes the sky of Sun and Moon.
@@ -62,8 +73,7 @@ struct Plan {
     double moon_share = 0.0;
     /// How much of the corona is drawn, 0..1: the last of the Sun's disc dazzles.
     double corona_share = 0.0;
-    /// Stars of this V magnitude are gone, those 0.8 mag brighter are drawn in full.
-    double star_limit_mag = 0.0;
+    StarPlan stars;
     /// Nodes of the direction tables.
     sky::SkyViewSize table;
     std::bitset<kPassCount> forced;
@@ -95,8 +105,11 @@ struct Plan {
 /// \param half_code_mag  fainter ones change no picture
 void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept;
 
-/// Faintest star that a practised eye sees before a background, V magnitude (Schaefer 1990, after Knoll et
-/// al. 1946).
+/// The same where light is drawn without an eye: every star and planet that is switched on.
+void plan_all_stars(Plan& plan, const Scene& scene) noexcept;
+
+/// Faintest star that a practised eye sees before a background, V magnitude at the eye.
+/// \see eye::threshold_lux()
 [[nodiscard]] double faintest_visible_mag(double background_cd_m2) noexcept;
 
 }  // namespace skyig::render

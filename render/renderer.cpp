@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -13,84 +14,45 @@
 #include "render/gl/program.h"
 #include "render/screens.h"
 #include "render/sky_frame.h"
-#include "render/star_field.h"
+#include "render/star_pass.h"
 
 namespace skyig::render {
 
 namespace {
 
-// Points whose centre lies outside the picture by less than half a footprint still show, also where the
-// frustum's edge spreads the footprint over more pixels.
-constexpr int kStarGuard_px = 16;
-
 // Directions at infinity: z is 0, which no depth range clips; w is the distance along the view axis.
-glm::dmat4 clip_from_view(const Frustum& frustum, double guard_x, double guard_y) {
+glm::dmat4 clip_from_view(const Frustum& frustum) {
     const ImagePlane p = image_plane(frustum);
-    const double width = (p.right - p.left) * guard_x;
-    const double height = (p.top - p.bottom) * guard_y;
+    const double width = p.right - p.left;
+    const double height = p.top - p.bottom;
     return {glm::dvec4{2.0 / width, 0.0, 0.0, 0.0}, glm::dvec4{0.0, 2.0 / height, 0.0, 0.0},
             glm::dvec4{(p.right + p.left) / width, (p.top + p.bottom) / height, 0.0, -1.0}, glm::dvec4{0.0}};
 }
 
-class StarPass {
-  public:
-    StarPass()
-        : program_("night/star.vert", "night/star.frag"),
-          mesh_({3, 3, 3}, field_.capacity()),
-          tone_(program_, false),
-          clip_(program_.uniform("u_clip_from_enu")),
-          view_(program_.uniform("u_view_from_enu")),
-          plane_origin_(program_.uniform("u_plane_origin")),
-          plane_step_(program_.uniform("u_plane_step")),
-          sigma_(program_.uniform("u_sigma_rad")),
-          point_gain_(program_.uniform("u_point_gain")) {}
-
-    void prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light,
-                 const shaders64::ToneParameters& tone, double limit_mag) {
-        field_.update(scene, air, light, tone, limit_mag);
-        const auto stars = field_.stars();
-        mesh_.update({reinterpret_cast<const float*>(stars.data()), stars.size_bytes() / sizeof(float)});
-        const auto tone32 = eye::single_precision(tone);
-        tone_.set(program_, tone32);
-        program_.set(point_gain_, tone32.point_gain * tone32.inv_display_max);
+gl::PixelFormat pixel_format(Target target) {
+    switch (target) {
+        case Target::kLuminance:
+            return gl::PixelFormat::kRgba32F;
+        case Target::kHalfLuminance:
+            return gl::PixelFormat::kRgba16F;
+        case Target::kDisplay:
+            break;
     }
-
-    void draw(const Channel& channel, const ChannelView& view) const {
-        const double width = channel.width_px + 2.0 * kStarGuard_px;
-        const double height = channel.height_px + 2.0 * kStarGuard_px;
-        const ImagePlane p = image_plane(view.frustum);
-        const glm::dvec2 step{(p.right - p.left) / channel.width_px, (p.top - p.bottom) / channel.height_px};
-        program_.use();
-        program_.set(clip_, glm::mat4{clip_from_view(view.frustum, width / channel.width_px,
-                                                     height / channel.height_px) *
-                                      glm::dmat4{view.view_from_enu}});
-        program_.set(view_, glm::mat4{glm::dmat4{view.view_from_enu}});
-        program_.set(plane_origin_, glm::vec2{glm::dvec2{p.left, p.bottom}});
-        program_.set(plane_step_, glm::vec2{step});
-        program_.set(sigma_, static_cast<float>(kStarSigma_px * pixel_angle_rad(channel, view.frustum)));
-        mesh_.draw_points(field_.stars().size());
-    }
-
-    [[nodiscard]] std::size_t count() const { return field_.stars().size(); }
-
-  private:
-    StarField field_;
-    gl::Program program_;
-    gl::Mesh mesh_;
-    ToneUniforms tone_;
-    int clip_, view_, plane_origin_, plane_step_, sigma_, point_gain_;
-};
+    return gl::PixelFormat::kRgba8;
+}
 
 }  // namespace
 
 struct Renderer::Impl {
-    Impl(std::vector<Channel> channel_list, const DisplaySettings& display_settings, const Quality& quality)
+    Impl(std::vector<Channel> channel_list, const DisplaySettings& display_settings, const Quality& quality,
+         Target target)
         : channels(std::move(channel_list)),
           display(display_settings),
           screens(screens_of(channels, display_settings)),
-          frame(display_settings, quality, screens.distinct) {
+          frame(display_settings, quality, screens.distinct, target) {
+        display.dither = display.dither && target == Target::kDisplay;
         for (const Channel& channel : channels)
-            targets.emplace_back(channel.width_px, channel.height_px);
+            targets.emplace_back(channel.width_px, channel.height_px, pixel_format(target));
         for (std::size_t i = 0; i < screens.distinct.size(); ++i)
             dome_meshes.emplace_back(std::initializer_list<int>{3, 3, 3}, Dome::kMaxVertices);
         dome_program.set(dome_program.uniform("u_dither_codes"), display.dither ? 1.0F : 0.0F);
@@ -98,7 +60,7 @@ struct Renderer::Impl {
     }
 
     void upload_dome();
-    void prepare_points_and_discs(std::size_t screen);
+    void prepare_discs(std::size_t screen);
     void draw_dome(std::size_t channel, const glm::dmat4& clip_from_enu);
     void refresh_deferred();
 
@@ -124,7 +86,7 @@ struct Renderer::Impl {
     SkyFrame frame;
     Scene scene;
     double pixel_rad = 1e-3;
-    std::size_t points_screen = 0;  // what points and discs are prepared for
+    std::size_t discs_screen = 0;  // what discs are prepared for
     FrameReport report;
 };
 
@@ -140,16 +102,11 @@ void Renderer::Impl::upload_dome() {
     vertices_revision = frame.vertices_revision();
 }
 
-void Renderer::Impl::prepare_points_and_discs(std::size_t screen) {
+void Renderer::Impl::prepare_discs(std::size_t screen) {
     const Plan& plan = frame.plan();
     const shaders64::ToneParameters& tone = frame.tone(screen);
     const auto tone32 = eye::single_precision(tone);
-    points_screen = screen;
-    report.stars_drawn = 0;
-    if (plan.needs(Pass::kStars)) {
-        stars.prepare(scene, frame.air(), frame.light(), tone, plan.star_limit_mag);
-        report.stars_drawn = stars.count();
-    }
+    discs_screen = screen;
     if (plan.needs(Pass::kCorona))
         corona.prepare(scene, frame.air(), frame.light(), pixel_rad, tone32, plan.corona_share);
     if (plan.needs(Pass::kSunDisc))
@@ -173,12 +130,13 @@ void Renderer::Impl::refresh_deferred() {
     deferred->prepare(scene, frame.plan(), frame.tables(), frame.light(), display.dither);
 }
 
-Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality) {
+Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality,
+                   Target target) {
     if (channels.empty() || channels.size() > kMaxChannels) {
         throw std::runtime_error("a renderer draws 1 to " + std::to_string(kMaxChannels) + " channels, not " +
                                  std::to_string(channels.size()));
     }
-    impl_ = std::make_unique<Impl>(std::move(channels), display, quality);
+    impl_ = std::make_unique<Impl>(std::move(channels), display, quality, target);
 }
 
 Renderer::~Renderer() = default;
@@ -189,7 +147,12 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     m.pixel_rad = finest_pixel_rad(m.channels, scene.channel_views());
     m.frame.prepare(scene, m.pixel_rad);
     m.upload_dome();
-    m.prepare_points_and_discs(0);
+    m.report.stars_drawn = 0;
+    if (m.frame.plan().needs(Pass::kStars)) {
+        m.stars.prepare(scene, m.frame, m.pixel_rad);
+        m.report.stars_drawn = m.stars.count();
+    }
+    m.prepare_discs(0);
     if (m.deferred) m.refresh_deferred();
     m.report.plan = m.frame.plan();
     m.report.adaptation_cd_m2 = m.frame.adaptation_cd_m2();
@@ -203,20 +166,18 @@ void Renderer::draw(std::size_t channel) {
     const ChannelView& view = m.scene.views[channel];
     if (!has_area(view.frustum)) return;
     const Plan& plan = m.report.plan;
-    const glm::dmat4 clip_from_enu = clip_from_view(view.frustum, 1.0, 1.0) * glm::dmat4{view.view_from_enu};
+    const glm::dmat4 clip_from_enu = clip_from_view(view.frustum) * glm::dmat4{view.view_from_enu};
 
-    // Points and discs are prepared for one screen at a time: rigs of like screens pay for it once a frame.
-    if (m.points_screen != m.screens.of_channel[channel])
-        m.prepare_points_and_discs(m.screens.of_channel[channel]);
+    // Discs are prepared for one screen at a time: rigs of like screens pay for it once a frame.
+    if (m.discs_screen != m.screens.of_channel[channel]) m.prepare_discs(m.screens.of_channel[channel]);
     m.targets[channel].bind();
     gl::set_blend(gl::Blend::kReplace);
     m.draw_dome(channel, clip_from_enu);
 
     if (plan.needs(Pass::kStars)) {
         gl::set_blend(gl::Blend::kAdd);
-        m.targets[channel].bind(kStarGuard_px);
-        m.stars.draw(m.channels[channel], view);
-        m.targets[channel].bind();
+        m.stars.draw(m.channels[channel], view,
+                     eye::single_precision(m.frame.tone(m.screens.of_channel[channel])));
     }
     if (plan.needs(Pass::kCorona)) {
         gl::set_blend(gl::Blend::kAdd);
@@ -246,6 +207,14 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
 
 void Renderer::read_back(std::size_t channel, std::span<std::byte> rgba) {
     if (channel < impl_->targets.size()) impl_->targets[channel].read_rgba8(rgba);
+}
+
+void Renderer::read_luminance(std::size_t channel, std::span<float> rgb_cd_m2) {
+    if (channel >= impl_->targets.size()) return;
+    impl_->targets[channel].read_rgb32f(rgb_cd_m2);
+    const auto unit_cd_m2 = static_cast<float>(std::exp2(-impl_->frame.exposure_exponent()));
+    for (float& value : rgb_cd_m2)
+        value *= unit_cd_m2;
 }
 
 std::span<const Channel> Renderer::channels() const noexcept {

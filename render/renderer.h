@@ -14,6 +14,7 @@
 #include "render/display.h"
 #include "render/plan.h"
 #include "render/scene.h"
+#include "render/target.h"
 
 namespace skyig::render {
 
@@ -33,7 +34,9 @@ class Renderer {
   public:
     /// \throws std::runtime_error with the GL text when a program or a framebuffer cannot be made, or when
     /// there are no channels or more than kMaxChannels.
-    Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality = {});
+    /// \param target  what the pixels hold; the adaptation is that of eyes before `display` for all
+    Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality = {},
+             Target target = Target::kDisplay);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
@@ -53,6 +56,11 @@ class Renderer {
 
     /// Copies a channel's pixels: RGBA, 8 bits, top row first, width * height * 4 bytes.
     void read_back(std::size_t channel, std::span<std::byte> rgba);
+
+    /// Copies the light of a channel's pixels: linear Rec.709, cd/m2, top row first, width * height * 3
+    /// floats. Colours outside Rec.709 have negative components. Only of a renderer whose target is
+    /// luminance.
+    void read_luminance(std::size_t channel, std::span<float> rgb_cd_m2);
 
     [[nodiscard]] std::span<const Channel> channels() const noexcept;
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "render/eye/exposure.h"
 #include "render/eye/tone_curve.h"
 #include "render/star_field.h"
 
@@ -39,13 +40,19 @@ ClippedLight clipped_light(const std::array<double, eye::kProbeCount>& probes_cd
     return clipped;
 }
 
+// What a target of luminance asks of the dome: the finest there is.
+constexpr Quality kFinest{.error_codes = 0.0, .forced = {}};
+
 }  // namespace
 
-SkyFrame::SkyFrame(const DisplaySettings& display, const Quality& quality, std::span<const Screen> screens)
+SkyFrame::SkyFrame(const DisplaySettings& display, const Quality& quality, std::span<const Screen> screens,
+                   Target target)
     : displays_(std::max<std::size_t>(screens.size(), 1), display),
       quality_(quality),
+      target_(target),
       tables_(direction_table_size(quality)),
       dome_(displays_.size()),
+      display_tones_(displays_.size()),
       tones_(displays_.size()),
       clipped_(displays_.size()) {
     for (std::size_t i = 0; i < screens.size(); ++i)
@@ -98,12 +105,19 @@ void SkyFrame::tone_screens(const Scene& scene, double pixel_rad) {
     }
     // The faintest star that any screen shows.
     double faintest_mag = -std::numeric_limits<double>::infinity();
-    for (std::size_t screen = 0; screen < tones_.size(); ++screen) {
-        tones_[screen] = eye::tone_parameters(displays_[screen], adaptation_.luminance_cd_m2());
-        clipped_[screen] = clipped_light(probes_cd_m2_, tones_[screen]);
-        faintest_mag = std::max(faintest_mag, half_code_mag(darkest_sky, tones_[screen], pixel_rad));
+    for (std::size_t screen = 0; screen < display_tones_.size(); ++screen) {
+        display_tones_[screen] = eye::tone_parameters(displays_[screen], adaptation_.luminance_cd_m2());
+        clipped_[screen] = clipped_light(probes_cd_m2_, display_tones_[screen]);
+        faintest_mag = std::max(faintest_mag, half_code_mag(darkest_sky, display_tones_[screen], pixel_rad));
     }
-    plan_stars(plan_, scene, darkest_sky, faintest_mag);
+    if (target_ == Target::kDisplay) {
+        tones_ = display_tones_;
+        plan_stars(plan_, scene, darkest_sky, faintest_mag);
+        return;
+    }
+    exposure_exponent_ = eye::exposure_exponent(target_, adaptation_.luminance_cd_m2());
+    std::fill(tones_.begin(), tones_.end(), eye::luminance_parameters(exposure_exponent_));
+    plan_all_stars(plan_, scene);
 }
 
 double SkyFrame::luminance_cd_m2(double elevation_rad, double azimuth_rad) const {
@@ -124,16 +138,19 @@ void SkyFrame::refresh_dome(double pixel_rad) {
     const bool scaled = scale_moved(light_.sun.scale_xyz, shaded_.sun_scale) ||
                         scale_moved(light_.moon.scale_xyz, shaded_.moon_scale) || turned;
     const bool toned =
-        std::abs(adaptation - shaded_.adaptation_cd_m2) > kAdaptationStep * shaded_.adaptation_cd_m2;
+        std::abs(adaptation - shaded_.adaptation_cd_m2) > kAdaptationStep * shaded_.adaptation_cd_m2 ||
+        exposure_exponent_ != shaded_.exposure_exponent;
+    const bool of_light = target_ != Target::kDisplay;
+    const Quality& quality = of_light ? kFinest : quality_;
     mesh_azimuth_rad_ = wanted.azimuth_rad;
     if (lay) {
-        bend_.measure(light_, tones_, mesh_azimuth_rad_, pixel_rad);
-        dome_.lay_out(wanted, bend_, plan_dome(bend_, at_once ? DomeBend::kLeast : dome_.size(), quality_));
+        bend_.measure(light_, display_tones_, mesh_azimuth_rad_, pixel_rad);
+        dome_.lay_out(wanted, bend_, plan_dome(bend_, at_once ? DomeBend::kLeast : dome_.size(), quality));
     }
     if (replaced || scaled) {
-        const auto change = at_once    ? Dome::Change::kAtOnce
-                            : replaced ? Dome::Change::kReplaced
-                                       : Dome::Change::kScaled;
+        const auto change = at_once || of_light ? Dome::Change::kAtOnce
+                            : replaced          ? Dome::Change::kReplaced
+                                                : Dome::Change::kScaled;
         dome_.look_up(light_, mesh_azimuth_rad_, change);
         shaded_.tables = tables_.revision();
         shaded_.sun_scale = light_.sun.scale_xyz;
@@ -143,11 +160,11 @@ void SkyFrame::refresh_dome(double pixel_rad) {
     if (replaced || scaled || toned) {
         dome_.encode(tones_);
         shaded_.adaptation_cd_m2 = adaptation;
+        shaded_.exposure_exponent = exposure_exponent_;
         ++vertices_revision_;
     }
     if (lay) {
-        dome_error_codes_ =
-            dome_.triangulate(light_, mesh_azimuth_rad_, tones_.front(), quality_.error_codes);
+        dome_error_codes_ = dome_.triangulate(light_, mesh_azimuth_rad_, tones_.front(), quality.error_codes);
         ++triangles_revision_;
     }
     dome_.step();

@@ -12,6 +12,7 @@
 #include "render/plan.h"
 #include "render/scene.h"
 #include "render/sky_light.h"
+#include "render/target.h"
 
 namespace skyig::render {
 
@@ -24,7 +25,10 @@ struct ClippedLight {
 class SkyFrame {
   public:
     /// \param screens  different ones that the light is toned for; none: that of `display`
-    SkyFrame(const DisplaySettings& display, const Quality& quality, std::span<const Screen> screens = {});
+    /// \param target  a target of luminance has the finest dome and all stars; the displays still decide
+    /// where the dome's nodes lie
+    SkyFrame(const DisplaySettings& display, const Quality& quality, std::span<const Screen> screens = {},
+             Target target = Target::kDisplay);
 
     /// \param pixel_rad  angle of the finest pixel of the rig: edges are softened over it. Allocates nothing
     /// in steady state. The first call builds all tables and may throw std::bad_alloc; later ones do not
@@ -34,9 +38,12 @@ class SkyFrame {
     // All of this is the prepared frame's.
     [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
     [[nodiscard]] const SkyLight& light() const noexcept { return light_; }
+    /// What turns light into the target's values.
     [[nodiscard]] const shaders64::ToneParameters& tone(std::size_t screen = 0) const noexcept {
         return tones_[screen];
     }
+    /// k of what a target of luminance holds, light times 2^k. \see eye::exposure_exponent()
+    [[nodiscard]] int exposure_exponent() const noexcept { return exposure_exponent_; }
     [[nodiscard]] double adaptation_cd_m2() const noexcept { return adaptation_.luminance_cd_m2(); }
     [[nodiscard]] const sky::AirTables& air() const noexcept { return tables_.air(); }
     [[nodiscard]] const LightTables& tables() const noexcept { return tables_; }
@@ -68,6 +75,7 @@ class SkyFrame {
 
     std::vector<DisplaySettings> displays_;  // the same eye before each screen
     Quality quality_;
+    Target target_;
     LightTables tables_;
     eye::Adaptation adaptation_;
     DomeBend bend_;
@@ -76,7 +84,9 @@ class SkyFrame {
     Plan plan_;
     SkyLight light_;
     std::array<double, eye::kProbeCount> probes_cd_m2_{};
-    std::vector<shaders64::ToneParameters> tones_;
+    std::vector<shaders64::ToneParameters> display_tones_;
+    std::vector<shaders64::ToneParameters> tones_;  // of the target
+    int exposure_exponent_ = 0;
     std::vector<ClippedLight> clipped_;
     double mesh_azimuth_rad_ = 0.0;
     double dome_error_codes_ = 0.0;
@@ -87,6 +97,7 @@ class SkyFrame {
     struct Shaded {
         std::uint64_t tables = 0;
         double adaptation_cd_m2 = 0.0;
+        int exposure_exponent = 0;
         glm::vec3 sun_scale{-1.0F};
         glm::vec3 moon_scale{-1.0F};
         double moon_from_sun_rad = 0.0;

@@ -84,6 +84,8 @@ struct SkySettings {
     CieSettings cie;
     PreethamSettings preetham;
     WindlightSettings windlight;
+    /// The air's eddies make stars flicker.
+    bool star_scintillation = false;
 
     friend bool operator==(const SkySettings&, const SkySettings&) = default;
 };

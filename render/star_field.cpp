@@ -4,36 +4,52 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/eye/tone_curve.h"
+#include "render/eye/point_threshold.h"
 #include "render/night/star_catalogue.h"
 #include "render/night/star_colour.h"
+#include "render/night/star_scintillation.h"
+#include "render/sky/staleness.h"
 
 namespace skyig::render {
 
 namespace {
 
 constexpr std::size_t kAirSteps = 192;
-constexpr double kFade_mag = 0.8;
 
-// Steps crowd at the horizon, where air mass and refraction run away.
-double step_of_elevation(double elevation_rad, double lowest_rad) {
-    const double share = (elevation_rad - lowest_rad) / (0.5 * std::numbers::pi - lowest_rad);
-    return std::sqrt(std::clamp(share, 0.0, 1.0)) * static_cast<double>(kAirSteps - 1);
+// Over the sine of the airless elevation; steps crowd at the horizon, where air mass and refraction run away.
+float step_of_sine(float sine, float lowest_sine) {
+    const float share = (sine - lowest_sine) / (1.0F - lowest_sine);
+    return std::sqrt(std::clamp(share, 0.0F, 1.0F)) * static_cast<float>(kAirSteps - 1);
 }
 
-double elevation_of_step(std::size_t step, double lowest_rad) {
+double elevation_of_step(std::size_t step, double lowest_sine) {
     const double share = static_cast<double>(step) / static_cast<double>(kAirSteps - 1);
-    return lowest_rad + share * share * (0.5 * std::numbers::pi - lowest_rad);
+    return std::asin(std::min(1.0, lowest_sine + share * share * (1.0 - lowest_sine)));
 }
 
-// A direction turned towards the zenith by a small angle; the zenith stays.
-glm::vec3 lifted(const glm::vec3& d, float angle_rad) {
+// A direction turned towards the zenith by `lift` times the cosine of its elevation; the zenith stays.
+glm::vec3 lifted(const glm::vec3& d, float lift) {
     const float level = std::sqrt(d.x * d.x + d.y * d.y);
-    if (level < 1e-6F) return d;
-    const float sine = std::sin(angle_rad);
+    const float angle_rad = lift * level;
     const float cosine = std::cos(angle_rad);
-    const float shrink = cosine - sine * d.z / level;
-    return {d.x * shrink, d.y * shrink, d.z * cosine + level * sine};
+    const float sine_over_level = level > 1e-6F ? std::sin(angle_rad) / level : lift;
+    const float shrink = cosine - sine_over_level * d.z;
+    return {d.x * shrink, d.y * shrink, d.z * cosine + level * level * sine_over_level};
+}
+
+bool moved(const glm::vec3& now, const glm::vec3& held) {
+    constexpr float kStep = 5e-3F;
+    return glm::any(glm::greaterThan(glm::abs(now - held), kStep * glm::max(now, held)));
+}
+
+bool apart(const glm::dvec3& a, const glm::dvec3& b, double angle_rad) {
+    return glm::dot(a - b, a - b) > angle_rad * angle_rad;
+}
+
+bool differs(const StarPlan& a, const StarPlan& b) {
+    constexpr double kStep_mag = 0.02;
+    return std::abs(a.limit_mag - b.limit_mag) > kStep_mag || a.seen_only != b.seen_only ||
+           a.twinkle != b.twinkle || std::abs(a.twinkle_limit_mag - b.twinkle_limit_mag) > kStep_mag;
 }
 
 }  // namespace
@@ -52,6 +68,12 @@ double half_code_mag(double background_cd_m2, const shaders64::ToneParameters& t
     return -2.5 * std::log10(lux / night::star_illuminance_lux(0.0));
 }
 
+float seen_share(float illuminance_lux, float background_cd_m2) noexcept {
+    const auto threshold = static_cast<float>(eye::threshold_lux(static_cast<double>(background_cd_m2)));
+    const float t = std::clamp((illuminance_lux / threshold - 0.94F) / 0.12F, 0.0F, 1.0F);
+    return t * t * (3.0F - 2.0F * t);
+}
+
 StarField::StarField() {
     sources_.reserve(night::star_catalogue().size());
     for (const night::CatalogueStar& star : night::star_catalogue()) {
@@ -62,83 +84,165 @@ StarField::StarField() {
     std::stable_sort(sources_.begin(), sources_.end(),
                      [](const Source& a, const Source& b) { return a.magnitude < b.magnitude; });
     stars_.resize(sources_.size() + kPlanetCount);
+    twinkles_.resize(stars_.size());
     air_.resize(kAirSteps);
 }
 
 struct StarField::Frame {
     const SkyLight& light;
-    shaders32::ToneParameters tone;
-    double lowest_rad;  // airless elevation of what is seen on the horizon
-    float lowest_sine;
+    float lowest_sine;  // airless, of what is seen on the horizon
+    float intensity;
+    bool seen_only;
     glm::vec3 moon_enu;
     float moon_chord;  // 0: the Moon covers nothing
 };
 
-void StarField::tabulate_air(const SkyLight& light, const sky::AirTables& air) {
-    const double lowest_rad = light.refraction.setting_elevation_rad();
+StarField::Made StarField::made_of(const Scene& scene, const SkyFrame& frame) noexcept {
+    const SkyLight& light = frame.light();
+    const glm::dmat3 gcrs_from_enu = glm::transpose(scene.stars.enu_from_gcrs);
+    Made made{.valid = true,
+              .tables = frame.tables().revision(),
+              .air_in_use = frame.tables().air_in_use(),
+              .sun_scale = light.sun.scale_xyz,
+              .moon_scale = light.moon.scale_xyz,
+              .height_m = scene.eye.height_m,
+              .air = scene.air,
+              .stars = scene.stars,
+              .plan = frame.plan().stars,
+              .planets = scene.planets,
+              .planets_gcrs = {},
+              .moon_gcrs = gcrs_from_enu * scene.moon.direction_enu,
+              .moon_radius_rad = scene.moon.enabled ? scene.moon.angular_radius_rad : 0.0};
+    for (std::size_t i = 0; i < kPlanetCount; ++i)
+        made.planets_gcrs[i] = gcrs_from_enu * scene.planets[i].direction_enu;
+    return made;
+}
+
+bool StarField::is_stale(const Made& now, double pixel_rad) const noexcept {
+    const Made& held = made_;
+    const double step_rad = 0.1 * pixel_rad;
+    if (!held.valid || now.tables != held.tables || now.air_in_use != held.air_in_use ||
+        moved(now.sun_scale, held.sun_scale) || moved(now.moon_scale, held.moon_scale) ||
+        sky::height_is_stale(now.height_m, held.height_m) || !(now.air == held.air) ||
+        differs(now.plan, held.plan))
+        return true;
+    for (int i = 0; i < 3; ++i) {
+        if (apart(now.stars.enu_from_gcrs[i], held.stars.enu_from_gcrs[i], step_rad)) return true;
+    }
+    constexpr double kYears = 0.01;
+    if (now.stars.intensity != held.stars.intensity ||
+        apart(now.stars.earth_velocity_c, held.stars.earth_velocity_c, step_rad) ||
+        std::abs(now.stars.years_since_j2000 - held.stars.years_since_j2000) > kYears ||
+        apart(now.moon_gcrs, held.moon_gcrs, step_rad) || now.moon_radius_rad != held.moon_radius_rad)
+        return true;
+    constexpr double kMagnitude = 0.01;
+    for (std::size_t i = 0; i < kPlanetCount; ++i) {
+        if (apart(now.planets_gcrs[i], held.planets_gcrs[i], step_rad) ||
+            std::abs(now.planets[i].magnitude - held.planets[i].magnitude) > kMagnitude)
+            return true;
+    }
+    return false;
+}
+
+void StarField::tabulate_air(const SkyFrame& frame, double eye_height_m) {
+    const SkyLight& light = frame.light();
+    const double lowest_sine = std::sin(light.refraction.setting_elevation_rad());
     for (std::size_t i = 0; i < kAirSteps; ++i) {
-        const double elevation_rad = elevation_of_step(i, lowest_rad);
+        const double elevation_rad = elevation_of_step(i, lowest_sine);
         const double seen_rad = light.refraction.apparent_from_true(elevation_rad);
-        air_[i] = {
-            glm::vec3{air.transmittance_rgb(light.eye_height_m, light.straight_elevation_rad(seen_rad))},
-            static_cast<float>(seen_rad - elevation_rad)};
+        const double level = std::max(std::cos(elevation_rad), 1e-4);
+        const double rms = night::scintillation_rms(night::air_mass(seen_rad), eye_height_m);
+        air_[i] = {glm::vec3{frame.air().transmittance_rgb(light.eye_height_m,
+                                                           light.straight_elevation_rad(seen_rad))},
+                   static_cast<float>((seen_rad - elevation_rad) / level), static_cast<float>(rms)};
     }
 }
 
-StarField::Air StarField::air_at(double elevation_rad, double lowest_rad) const noexcept {
-    const double step = step_of_elevation(elevation_rad, lowest_rad);
+StarField::Air StarField::air_at(float sine, float lowest_sine) const noexcept {
+    const float step = step_of_sine(sine, lowest_sine);
     const auto low = std::min(static_cast<std::size_t>(step), kAirSteps - 2);
-    const auto share = static_cast<float>(step - static_cast<double>(low));
-    return {glm::mix(air_[low].transmittance, air_[low + 1].transmittance, share),
-            glm::mix(air_[low].lift_rad, air_[low + 1].lift_rad, share)};
+    const float share = step - static_cast<float>(low);
+    const Air& a = air_[low];
+    const Air& b = air_[low + 1];
+    return {glm::mix(a.transmittance, b.transmittance, share), glm::mix(a.lift, b.lift, share),
+            glm::mix(a.twinkle_rms, b.twinkle_rms, share)};
 }
 
-void StarField::add(const glm::vec3& direction_enu, const glm::vec3& illuminance_lux,
-                    const Frame& frame) noexcept {
-    if (direction_enu.z < frame.lowest_sine) return;
+void StarField::add(const glm::vec3& direction_enu, const Light& source, const Frame& frame) noexcept {
     const glm::vec3 from_moon = direction_enu - frame.moon_enu;
     if (glm::dot(from_moon, from_moon) < frame.moon_chord * frame.moon_chord) return;
-    const Horizontal airless = horizontal_of(glm::dvec3{direction_enu});
-    const Air air = air_at(airless.elevation_rad, frame.lowest_rad);
-    const Horizontal seen{airless.elevation_rad + static_cast<double>(air.lift_rad), airless.azimuth_rad};
-    const glm::vec3 behind = frame.light.rgb_cd_m2(seen.elevation_rad, seen.azimuth_rad, Side::kSky);
-    stars_[count_++] = {lifted(direction_enu, air.lift_rad), illuminance_lux * air.transmittance,
-                        shaders32::display_linear(behind, frame.tone)};
+    const Air air = air_at(direction_enu.z, frame.lowest_sine);
+    const glm::vec3 seen_enu = lifted(direction_enu, air.lift);
+    const Horizontal at = horizontal_of(glm::dvec3{seen_enu});
+    const glm::vec3 behind = frame.light.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kSky);
+    glm::vec3 lux = source.illuminance_lux * air.transmittance * frame.intensity;
+    if (frame.seen_only) {
+        const float share = seen_share(shaders32::luminance_709(lux), shaders32::luminance_709(behind));
+        if (!(share > 0.0F)) return;
+        lux *= share;
+    }
+    stars_[count_] = {seen_enu, lux, behind};
+    twinkles_[count_++] = {lux, air.twinkle_rms * source.twinkle, source.source};
 }
 
-void StarField::update(const Scene& scene, const sky::AirTables& air, const SkyLight& light,
-                       const shaders64::ToneParameters& tone, double limit_mag) {
-    tabulate_air(light, air);
-    const double lowest_rad = light.refraction.setting_elevation_rad();
+void StarField::rebuild(const Scene& scene, const SkyFrame& frame) {
+    const StarPlan& plan = frame.plan().stars;
+    tabulate_air(frame, scene.eye.height_m);
     const double moon_chord = scene.moon.enabled ? 2.0 * std::sin(0.5 * scene.moon.angular_radius_rad) : 0.0;
-    const Frame frame{light,
-                      eye::single_precision(tone),
-                      lowest_rad,
-                      static_cast<float>(std::sin(lowest_rad)),
-                      glm::vec3{scene.moon.direction_enu},
-                      static_cast<float>(moon_chord)};
-    const auto intensity = static_cast<float>(scene.stars.intensity);
-    const auto shown = [&](double magnitude) {
-        return intensity * static_cast<float>(smooth_step(limit_mag, limit_mag - kFade_mag, magnitude));
+    const double lowest_sine = std::sin(frame.light().refraction.setting_elevation_rad());
+    const Frame now{
+        frame.light(),  static_cast<float>(lowest_sine),     static_cast<float>(scene.stars.intensity),
+        plan.seen_only, glm::vec3{scene.moon.direction_enu}, static_cast<float>(moon_chord)};
+    const auto twinkle = [&](double magnitude, double factor) {
+        return plan.twinkle && magnitude < plan.twinkle_limit_mag ? static_cast<float>(factor) : 0.0F;
     };
 
     count_ = 0;
-    for (const Planet& planet : scene.planets) {
-        const float share = shown(planet.magnitude);
-        const glm::dvec3 light_lux =
+    for (std::size_t i = 0; i < kPlanetCount; ++i) {
+        const Planet& planet = scene.planets[i];
+        if (planet.direction_enu.z < lowest_sine || planet.magnitude > plan.limit_mag) continue;
+        const glm::dvec3 lux =
             night::star_colour_of_bv(planet.bv) * night::star_illuminance_lux(planet.magnitude);
-        if (share > 0.0F) add(glm::vec3{planet.direction_enu}, glm::vec3{light_lux} * share, frame);
+        add(glm::vec3{planet.direction_enu},
+            {glm::vec3{lux}, twinkle(planet.magnitude, night::kPlanetScintillation),
+             static_cast<std::uint32_t>(sources_.size() + i)},
+            now);
     }
     const glm::mat3 enu_from_gcrs{scene.stars.enu_from_gcrs};
     const glm::vec3 aberration{scene.stars.earth_velocity_c};
     const auto years = static_cast<float>(scene.stars.years_since_j2000);
-    for (const Source& source : sources_) {
-        const float share = shown(static_cast<double>(source.magnitude));
-        if (share <= 0.0F) break;
+    twinkling_ = count_;
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+        const Source& source = sources_[i];
+        if (static_cast<double>(source.magnitude) > plan.limit_mag) break;
         const glm::vec3 direction = glm::normalize(
             enu_from_gcrs * (source.direction_gcrs + source.motion_rad_per_yr * years + aberration));
-        add(direction, source.illuminance_lux * share, frame);
+        if (direction.z < now.lowest_sine) continue;
+        const float factor = twinkle(static_cast<double>(source.magnitude), 1.0);
+        add(direction, {source.illuminance_lux, factor, static_cast<std::uint32_t>(i)}, now);
+        if (factor > 0.0F) twinkling_ = count_;
     }
+}
+
+void StarField::flicker(double time_s) noexcept {
+    for (std::size_t i = 0; i < twinkling_; ++i) {
+        const Twinkle& star = twinkles_[i];
+        stars_[i].illuminance_lux =
+            star.illuminance_lux * night::scintillation(star.source, time_s, star.rms);
+    }
+}
+
+bool StarField::update(const Scene& scene, const SkyFrame& frame, double pixel_rad) {
+    const Made now = made_of(scene, frame);
+    const bool stale = is_stale(now, pixel_rad);
+    if (stale) {
+        rebuild(scene, frame);
+        made_ = now;
+    }
+    enu_from_update_ = scene.stars.enu_from_gcrs * glm::transpose(made_.stars.enu_from_gcrs);
+    const bool flickers = frame.plan().stars.twinkle && twinkling_ > 0;
+    if (flickers) flicker(scene.time_s);
+    return stale || flickers;
 }
 
 }  // namespace skyig::render

@@ -108,7 +108,8 @@ render::SkySettings sky_settings(const config::Sky& sky) noexcept {
         .day_cycle = {.desaturation = sky.day_cycle.desaturation},
         .cie = {.type = sky.cie.type, .zenith_luminance_cd_m2 = sky.cie.zenith_luminance_cd_m2},
         .preetham = {.turbidity = sky.preetham.turbidity, .zenith_of_multi = sky.preetham.zenith_of_multi},
-        .windlight = windlight_settings(sky.windlight)};
+        .windlight = windlight_settings(sky.windlight),
+        .star_scintillation = sky.star_scintillation};
 }
 
 render::Ground ground_settings(const config::Ground& ground) noexcept {

@@ -7,8 +7,9 @@ namespace skyig::server {
 
 // A debug context costs nothing that can be measured here, and every GL error is then counted.
 GlPainter::GlPainter(std::vector<render::Channel> channels, const render::DisplaySettings& display,
-                     const render::Quality& quality)
-    : context_(render::gl::HeadlessContext::create(true)), renderer_(std::move(channels), display, quality) {}
+                     const render::Quality& quality, render::Target target)
+    : context_(render::gl::HeadlessContext::create(true)),
+      renderer_(std::move(channels), display, quality, target) {}
 
 void GlPainter::prepare(const render::Scene& scene) {
     const render::FrameReport& report = renderer_.prepare(scene);
@@ -23,6 +24,10 @@ void GlPainter::draw(std::size_t channel) {
 
 void GlPainter::read_back(std::size_t channel, std::span<std::byte> rgba) {
     renderer_.read_back(channel, rgba);
+}
+
+void GlPainter::read_luminance(std::size_t channel, std::span<float> rgb_cd_m2) {
+    renderer_.read_luminance(channel, rgb_cd_m2);
 }
 
 std::size_t GlPainter::passes(std::span<status::PassState> rows) const {

@@ -16,11 +16,13 @@ class GlPainter final : public Painter {
     /// \throws std::runtime_error with one line when there is no display, no OpenGL 4.5 or no memory for the
     /// channels
     GlPainter(std::vector<render::Channel> channels, const render::DisplaySettings& display,
-              const render::Quality& quality);
+              const render::Quality& quality, render::Target target = render::Target::kDisplay);
 
     void prepare(const render::Scene& scene) override;
     void draw(std::size_t channel) override;
     void read_back(std::size_t channel, std::span<std::byte> rgba) override;
+    /// Of a target of luminance. \see render::Renderer::read_luminance()
+    void read_luminance(std::size_t channel, std::span<float> rgb_cd_m2);
     [[nodiscard]] std::uint64_t gl_errors() const override { return gl_errors_; }
     [[nodiscard]] double adaptation_cd_m2() const override { return adaptation_cd_m2_; }
     [[nodiscard]] std::size_t passes(std::span<status::PassState> rows) const override;

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "clients/bench/ephemeris_family.h"
+#include "clients/bench/eye_family.h"
 #include "clients/bench/sky_family.h"
 #include "clients/bench/wire_family.h"
 
@@ -18,9 +19,10 @@ namespace skyig::clients::bench {
 
 namespace {
 
-constexpr std::array<Family, 3> kFamilies{{
+constexpr std::array<Family, 4> kFamilies{{
     {"ephemeris", "places of Sun, Moon and planets", measure_ephemeris_errors, ephemeris_contenders,
      ephemeris_floor},
+    {"eye", "from luminance to display codes", measure_eye_errors, eye_contenders, eye_floor},
     {"sky", "light of the day sky", measure_sky_errors, sky_contenders, sky_floor},
     {"wire", "CIGI in both versions and byte orders", measure_wire_errors, wire_contenders, wire_floor},
 }};

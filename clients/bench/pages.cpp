@@ -144,6 +144,10 @@ std::string plot_file_name(const Report& report, const Plot& plot) {
     return fmt::format("{}-{}.svg", report.family, plot.name);
 }
 
+std::string plot_file_name(const Report& report, const CurvePlot& plot) {
+    return fmt::format("{}-{}.svg", report.family, plot.name);
+}
+
 std::string family_page(const Report& report) {
     std::string page = fmt::format("# {}\n\n{}\nCases: {}\n\nTruth: {}\n\n", report.title, kOrigin,
                                    report.cases, report.truth);
@@ -152,6 +156,8 @@ std::string family_page(const Report& report) {
         fmt::format_to(out, "- **{}**: {}\n", model.name, model.what);
     for (const Plot& plot : report.plots)
         fmt::format_to(out, "\n![{}, {}]({})\n", plot.title, plot.cases, plot_file_name(report, plot));
+    for (const CurvePlot& plot : report.curves)
+        fmt::format_to(out, "\n![{}]({})\n", plot.title, plot_file_name(report, plot));
     page += "\n## Error\n";
     for (const std::string& cases : case_sets(report))
         put_errors(page, report, cases);
@@ -198,6 +204,8 @@ std::vector<std::filesystem::path> render_pages(const std::filesystem::path& fol
         write(report.family + ".md", family_page(report));
         for (const Plot& plot : report.plots)
             write(plot_file_name(report, plot), to_svg(report, plot));
+        for (const CurvePlot& plot : report.curves)
+            write(plot_file_name(report, plot), to_svg(plot));
     }
     write("index.md", index_page(reports));
     return written;

@@ -16,6 +16,7 @@ namespace skyig::clients::bench {
 [[nodiscard]] std::string index_page(std::span<const Report> reports);
 /// FAMILY-PLOT.svg
 [[nodiscard]] std::string plot_file_name(const Report& report, const Plot& plot);
+[[nodiscard]] std::string plot_file_name(const Report& report, const CurvePlot& plot);
 
 /// Reads every *.json in `folder`, in the order of their names, and writes pages and plots beside them.
 /// \return what was written. Throws std::runtime_error naming the file that cannot be read or written.

@@ -120,6 +120,38 @@ void put_text(std::string& svg, double x_px, double y_px, std::string_view attri
                    attributes, xml_escaped(text));
 }
 
+std::string opening(const std::string& label) {
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+        "role=\"img\" aria-label=\"{2}\">\n{3}<rect class=\"paper\" width=\"{0}\" height=\"{1}\" "
+        "rx=\"6\"/>\n",
+        kWidth_px, kHeight_px, xml_escaped(label), kStyle);
+}
+
+void put_axis_names(std::string& svg, const std::string& x, const std::string& y) {
+    put_text(svg, 0.5 * (kLeft_px + kRight_px), kBottom_px + 44.0, " text-anchor=\"middle\"", x);
+    put_text(svg, 0.0, 0.0,
+             fmt::format(" text-anchor=\"middle\" transform=\"translate(20 {}) rotate(-90)\"",
+                         0.5 * (kTop_px + kBottom_px)),
+             y);
+}
+
+void put_frame(std::string& svg) {
+    fmt::format_to(std::back_inserter(svg),
+                   "<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n", kLeft_px,
+                   kTop_px, kRight_px - kLeft_px, kBottom_px - kTop_px);
+}
+
+/// A colour beside its label, in the `place`th line of the legend.
+void put_key(std::string& svg, std::size_t place, std::string_view colour, const std::string& label) {
+    const double y_px = kTop_px + 10.0 + kLegendLine_px * static_cast<double>(place);
+    fmt::format_to(std::back_inserter(svg),
+                   "<line x1=\"{0}\" y1=\"{2:.1f}\" x2=\"{1}\" y2=\"{2:.1f}\" stroke=\"{3}\" "
+                   "stroke-width=\"4\"/>\n",
+                   kLegend_px, kLegend_px + 16.0, y_px, colour);
+    put_text(svg, kLegend_px + 24.0, y_px + 4.5, "", label);
+}
+
 void put_line(std::string& svg, double x1_px, double y1_px, double x2_px, double y2_px) {
     fmt::format_to(std::back_inserter(svg),
                    "<line class=\"grid\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n", x1_px,
@@ -137,9 +169,7 @@ void put_grid(std::string& svg, const Frame& frame) {
         put_line(svg, kLeft_px, y_px, kRight_px, y_px);
         put_text(svg, kLeft_px - 8.0, y_px + 4.5, " text-anchor=\"end\"", tick_label(value));
     }
-    fmt::format_to(std::back_inserter(svg),
-                   "<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n", kLeft_px,
-                   kTop_px, kRight_px - kLeft_px, kBottom_px - kTop_px);
+    put_frame(svg);
 }
 
 /// The model's shape round (x, y); `attributes` colour it.
@@ -193,15 +223,9 @@ void put_points(std::string& svg, const Report& report, const Plot& plot, const 
 }
 
 void put_legend(std::string& svg, const Report& report, const Plot& plot) {
-    double y_px = kTop_px + 10.0;
-    for (std::size_t s = 0; s < plot.series.size(); ++s, y_px += kLegendLine_px) {
-        fmt::format_to(std::back_inserter(svg),
-                       "<line x1=\"{0}\" y1=\"{2:.1f}\" x2=\"{1}\" y2=\"{2:.1f}\" stroke=\"{3}\" "
-                       "stroke-width=\"4\"/>\n",
-                       kLegend_px, kLegend_px + 16.0, y_px, kColours[s % kColours.size()]);
-        put_text(svg, kLegend_px + 24.0, y_px + 4.5, "", plot.series[s].label);
-    }
-    y_px += kLegendLine_px;
+    for (std::size_t s = 0; s < plot.series.size(); ++s)
+        put_key(svg, s, kColours[s % kColours.size()], plot.series[s].label);
+    double y_px = kTop_px + 10.0 + kLegendLine_px * static_cast<double>(plot.series.size() + 1);
     for (std::size_t m = 0; m < report.models.size(); ++m, y_px += kLegendLine_px) {
         svg += shape(m, kLegend_px + 8.0, y_px, " class=\"shape\"") + '\n';
         put_text(svg, kLegend_px + 24.0, y_px + 4.5, "", report.models[m].name);
@@ -244,11 +268,7 @@ std::string xml_escaped(std::string_view text) {
 }
 
 std::string to_svg(const Report& report, const Plot& plot) {
-    std::string svg = fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-        "role=\"img\" aria-label=\"{2}\">\n{3}<rect class=\"paper\" width=\"{0}\" height=\"{1}\" "
-        "rx=\"6\"/>\n",
-        kWidth_px, kHeight_px, xml_escaped(plot.title), kStyle);
+    std::string svg = opening(plot.title);
     put_text(svg, kLeft_px, 30.0, " class=\"title\"", fmt::format("{}, {}", plot.title, plot.cases));
     const std::vector<Point> points = points_of(report, plot);
     if (points.empty()) {
@@ -257,14 +277,48 @@ std::string to_svg(const Report& report, const Plot& plot) {
     }
     const Frame frame = frame_of(points);
     put_grid(svg, frame);
-    put_text(svg, 0.5 * (kLeft_px + kRight_px), kBottom_px + 44.0, " text-anchor=\"middle\"",
-             "cost of a call, ns");
-    put_text(svg, 0.0, 0.0,
-             fmt::format(" text-anchor=\"middle\" transform=\"translate(20 {}) rotate(-90)\"",
-                         0.5 * (kTop_px + kBottom_px)),
-             fmt::format("largest error, {}", unit_of(report, plot)));
+    put_axis_names(svg, "cost of a call, ns", fmt::format("largest error, {}", unit_of(report, plot)));
     put_points(svg, report, plot, points, frame);
     put_legend(svg, report, plot);
+    return svg + "</svg>\n";
+}
+
+std::string to_svg(const CurvePlot& plot) {
+    std::string svg = opening(plot.title);
+    put_text(svg, kLeft_px, 30.0, " class=\"title\"", plot.title);
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    for (const Curve& curve : plot.curves) {
+        for (const Curve::Point& point : curve.points) {
+            if (point.x > 0.0) least = std::min(least, point.x);
+            most = std::max(most, point.x);
+        }
+    }
+    if (!(least <= most)) return svg + "</svg>\n";
+    const LogAxis x(least, most, kLeft_px, kRight_px);
+    const auto y_px = [](double value) { return std::lerp(kBottom_px, kTop_px, value); };
+    for (const double value : x.ticks()) {
+        put_line(svg, x.at_px(value), kTop_px, x.at_px(value), kBottom_px);
+        put_text(svg, x.at_px(value), kBottom_px + 20.0, " text-anchor=\"middle\"", tick_label(value));
+    }
+    for (const double value : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        put_line(svg, kLeft_px, y_px(value), kRight_px, y_px(value));
+        put_text(svg, kLeft_px - 8.0, y_px(value) + 4.5, " text-anchor=\"end\"", fmt::format("{:g}", value));
+    }
+    put_frame(svg);
+    put_axis_names(svg, plot.x, plot.y);
+    for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+        const std::string_view colour = kColours[i % kColours.size()];
+        std::string line;
+        for (const Curve::Point& point : plot.curves[i].points) {
+            if (point.x > 0.0)
+                line += fmt::format("{:.1f},{:.1f} ", x.at_px(point.x), y_px(std::clamp(point.y, 0.0, 1.0)));
+        }
+        fmt::format_to(std::back_inserter(svg),
+                       "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", line,
+                       colour);
+        put_key(svg, i, colour, plot.curves[i].label);
+    }
     return svg + "</svg>\n";
 }
 

@@ -13,6 +13,9 @@ namespace skyig::clients::bench {
 /// without any point it says so.
 [[nodiscard]] std::string to_svg(const Report& report, const Plot& plot);
 
+/// The same for curves: x logarithmic, y 0 to 1, one colour each. Points with x <= 0 are left out.
+[[nodiscard]] std::string to_svg(const CurvePlot& plot);
+
 /// `text` as character data or attribute value of XML.
 [[nodiscard]] std::string xml_escaped(std::string_view text);
 

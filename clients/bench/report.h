@@ -60,6 +60,25 @@ struct Plot {
     std::vector<PlotSeries> series;
 };
 
+/// One line over an axis of luminances or the like.
+struct Curve {
+    std::string label;
+    struct Point {
+        double x = 0.0;
+        double y = 0.0;
+    };
+    std::vector<Point> points;
+};
+
+/// A picture of what models do, x logarithmic, y from 0 to 1.
+struct CurvePlot {
+    std::string name;  ///< part of the file's name
+    std::string title;
+    std::string x;
+    std::string y;
+    std::vector<Curve> curves;
+};
+
 /// The one error and the one cost that stand for a model in the table over all families; beside it what a
 /// call costs at worst, empty where all calls are alike.
 struct Headline {
@@ -83,6 +102,8 @@ struct Report {
     std::string machine;
     std::vector<ModelEntry> models;
     std::vector<Plot> plots;
+    /// Empty for most families.
+    std::vector<CurvePlot> curves = {};
     Headline headline;
 };
 

@@ -62,6 +62,18 @@ Json to_node(const Plot& plot) {
     return node;
 }
 
+Json to_node(const CurvePlot& plot) {
+    Json node{
+        {"name", plot.name}, {"title", plot.title}, {"x", plot.x}, {"y", plot.y}, {"lines", Json::array()}};
+    for (const Curve& curve : plot.curves) {
+        Json points = Json::array();
+        for (const Curve::Point& point : curve.points)
+            points.push_back({rounded(point.x), rounded(point.y)});
+        node["lines"].push_back({{"label", curve.label}, {"points", std::move(points)}});
+    }
+    return node;
+}
+
 std::string text_of(const Json& node, const char* key) {
     return node.at(key).get<std::string>();
 }
@@ -108,6 +120,17 @@ Plot plot_of(const Json& node) {
     return plot;
 }
 
+CurvePlot curve_plot_of(const Json& node) {
+    CurvePlot plot{text_of(node, "name"), text_of(node, "title"), text_of(node, "x"), text_of(node, "y"), {}};
+    for (const Json& line : node.at("lines")) {
+        Curve curve{text_of(line, "label"), {}};
+        for (const Json& point : line.at("points"))
+            curve.points.push_back({point.at(0).get<double>(), point.at(1).get<double>()});
+        plot.curves.push_back(std::move(curve));
+    }
+    return plot;
+}
+
 Report report_of(const Json& node) {
     if (text_of(node, "schema") != kSchema)
         throw std::runtime_error(fmt::format("bench: schema is not {}", kSchema));
@@ -125,6 +148,10 @@ Report report_of(const Json& node) {
         report.models.push_back(model_of(model));
     for (const Json& plot : node.at("plots"))
         report.plots.push_back(plot_of(plot));
+    if (node.contains("curves")) {
+        for (const Json& plot : node.at("curves"))
+            report.curves.push_back(curve_plot_of(plot));
+    }
     const Json& headline = node.at("headline");
     report.headline = {text_of(headline, "quantity"), text_of(headline, "cases"), text_of(headline, "cost"),
                        headline.contains("worst_cost") ? text_of(headline, "worst_cost") : ""};
@@ -151,6 +178,8 @@ std::string to_json(const Report& report) {
     node["plots"] = Json::array();
     for (const Plot& plot : report.plots)
         node["plots"].push_back(to_node(plot));
+    for (const CurvePlot& plot : report.curves)
+        node["curves"].push_back(to_node(plot));
     node["headline"] = {{"quantity", report.headline.quantity},
                         {"cases", report.headline.cases},
                         {"cost", report.headline.cost}};

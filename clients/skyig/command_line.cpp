@@ -90,6 +90,10 @@ void add_shot(CLI::App& app, ShotOptions& options) {
                    "the PNG to write; with --config and several channels NAME_channel.png")
         ->required()
         ->type_name("FILE");
+    app.add_option("--luminance", options.luminance_path,
+                   "a PFM to write beside it: each pixel's light, linear Rec.709 in cd/m2, all stars and the "
+                   "discs included, without an eye and its limits")
+        ->type_name("FILE");
     app.add_flag("--json", options.json, "tell the results as JSON");
 }
 

@@ -61,6 +61,7 @@ struct StillOptions {
 struct ShotOptions {
     StillOptions still;
     std::string out_path;
+    std::string luminance_path;  ///< empty: none
     bool json = false;
 };
 

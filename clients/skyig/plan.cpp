@@ -6,8 +6,10 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "clients/skyig/still/still.h"
+#include "render/screens.h"
 #include "render/sky_frame.h"
 #include "server/clock.h"
 #include "server/from_config.h"
@@ -23,6 +25,8 @@ struct StillPlan {
     server::SkyAngles sky;
     render::Quality quality;
     double adaptation_cd_m2 = 0.0;
+    /// Of each different screen.
+    std::vector<render::ClippedLight> clipped;
     render::Plan first;
     render::Plan next;
 };
@@ -34,14 +38,18 @@ StillPlan plan_still(const PlanOptions& options) {
     out.utc = server::ephemeris::to_iso(still.utc);
     out.sky = server::sky_angles(still.scene);
     out.quality = server::quality(still.config);
-    render::SkyFrame frame(server::display_settings(still.config), out.quality);
-    const double pixel_rad =
-        render::finest_pixel_rad(server::render_channels(still.config), still.scene.channel_views());
+    const render::DisplaySettings display = server::display_settings(still.config);
+    const std::vector<render::Channel> channels = server::render_channels(still.config);
+    const render::Screens screens = render::screens_of(channels, display);
+    render::SkyFrame frame(display, out.quality, screens.distinct);
+    const double pixel_rad = render::finest_pixel_rad(channels, still.scene.channel_views());
     frame.prepare(still.scene, pixel_rad);
     out.first = frame.plan();
     frame.prepare(still.scene, pixel_rad);
     out.next = frame.plan();
     out.adaptation_cd_m2 = frame.adaptation_cd_m2();
+    for (std::size_t i = 0; i < screens.distinct.size(); ++i)
+        out.clipped.push_back(frame.clipped(i));
     return out;
 }
 
@@ -51,6 +59,12 @@ void print_text(const StillPlan& plan) {
     fmt::print("Moon        elevation {:.2f} deg, {:.0f} % lit\n", plan.sky.moon_elevation_deg,
                plan.sky.moon_lit_fraction * 100.0);
     fmt::print("adaptation  {:.4g} cd/m2\n", plan.adaptation_cd_m2);
+    for (const render::ClippedLight& clipped : plan.clipped) {
+        fmt::print(
+            "screen      cannot show {:.0f} % of the directions, being below its black, and {:.0f} % in "
+            "full\n",
+            100.0 * clipped.below_black, 100.0 * clipped.above_white);
+    }
     fmt::print("sky         {}\n", render::name_of(plan.first.sky_model));
     fmt::print("budget      {:g} display codes\n\n", plan.quality.error_codes);
     fmt::print("{:<11} {:<6} {:<6} {:<12} {:>10} {:>7}  {}\n", "pass", "first", "later", "cost", "resolution",
@@ -73,6 +87,10 @@ void print_json(const StillPlan& plan) {
     json["moon"] = {{"elevation_deg", plan.sky.moon_elevation_deg},
                     {"lit_fraction", plan.sky.moon_lit_fraction}};
     json["adaptation_cd_m2"] = plan.adaptation_cd_m2;
+    json["screens"] = nlohmann::ordered_json::array();
+    for (const render::ClippedLight& clipped : plan.clipped)
+        json["screens"].push_back(
+            {{"below_black", clipped.below_black}, {"above_white", clipped.above_white}});
     json["sky_model"] = render::name_of(plan.first.sky_model);
     json["budget_codes"] = plan.quality.error_codes;
     json["passes"] = nlohmann::ordered_json::array();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "clients/skyig/still/still.h"
+#include "render/output/pfm.h"
 #include "render/output/png.h"
 #include "server/clock.h"
 #include "server/from_config.h"
@@ -25,6 +26,7 @@ struct Picture {
     std::string path;
     int width_px = 0;
     int height_px = 0;
+    std::string luminance_path;  // empty: none
 };
 
 struct Shot {
@@ -51,8 +53,11 @@ std::string picture_path(const std::string& out_path, const config::Config& conf
 Picture write_picture(server::GlPainter& painter, const ShotOptions& options, const config::Config& config,
                       std::size_t channel) {
     const config::Channel& settings = config.channels[channel];
-    Picture picture{settings.name, picture_path(options.out_path, config, channel), settings.width_px,
-                    settings.height_px};
+    Picture picture{settings.name,
+                    picture_path(options.out_path, config, channel),
+                    settings.width_px,
+                    settings.height_px,
+                    {}};
     std::vector<std::byte> rgba(static_cast<std::size_t>(picture.width_px) *
                                 static_cast<std::size_t>(picture.height_px) * 4);
     painter.read_back(channel, rgba);
@@ -63,9 +68,28 @@ Picture write_picture(server::GlPainter& painter, const ShotOptions& options, co
     return picture;
 }
 
-Shot take_shot(const ShotOptions& options) {
-    const server::SystemClock clock;
-    const Still still = make_still(options.still, clock);
+/// The same pictures as light.
+void write_luminance(const Still& still, const ShotOptions& options, std::vector<Picture>& pictures) {
+    const config::Config& config = still.config;
+    server::GlPainter painter(server::render_channels(config), server::display_settings(config),
+                              server::quality(config), render::Target::kLuminance);
+    painter.prepare(still.scene);
+    std::vector<float> rgb_cd_m2;
+    for (std::size_t channel = 0; channel < pictures.size(); ++channel) {
+        Picture& picture = pictures[channel];
+        picture.luminance_path = picture_path(options.luminance_path, config, channel);
+        rgb_cd_m2.resize(static_cast<std::size_t>(picture.width_px) *
+                         static_cast<std::size_t>(picture.height_px) * 3);
+        painter.draw(channel);
+        painter.read_luminance(channel, rgb_cd_m2);
+        std::string error;
+        if (!render::output::write_pfm(picture.luminance_path, picture.width_px, picture.height_px, rgb_cd_m2,
+                                       error))
+            throw std::runtime_error(error);
+    }
+}
+
+Shot draw_pictures(const Still& still, const ShotOptions& options, const server::Clock& clock) {
     const config::Config& config = still.config;
     server::GlPainter painter(server::render_channels(config), server::display_settings(config),
                               server::quality(config));
@@ -80,18 +104,28 @@ Shot take_shot(const ShotOptions& options) {
     shot.draw_ms = static_cast<double>(clock.monotonic_ns() - tables_ns) * 1e-6;
     for (std::size_t channel = 0; channel < config.channels.size(); ++channel)
         shot.pictures.push_back(write_picture(painter, options, config, channel));
-    shot.utc = server::ephemeris::to_iso(still.utc);
-    shot.ephemeris = server::ephemeris::name_of(server::ephemeris_model(config));
-    shot.leap_seconds_assumed = still.leap_seconds_assumed;
-    shot.sky = server::sky_angles(still.scene);
     shot.adaptation_cd_m2 = painter.adaptation_cd_m2();
     shot.renderer = painter.description();
     return shot;
 }
 
+Shot take_shot(const ShotOptions& options) {
+    const server::SystemClock clock;
+    const Still still = make_still(options.still, clock);
+    Shot shot = draw_pictures(still, options, clock);
+    if (!options.luminance_path.empty()) write_luminance(still, options, shot.pictures);
+    shot.utc = server::ephemeris::to_iso(still.utc);
+    shot.ephemeris = server::ephemeris::name_of(server::ephemeris_model(still.config));
+    shot.leap_seconds_assumed = still.leap_seconds_assumed;
+    shot.sky = server::sky_angles(still.scene);
+    return shot;
+}
+
 void print_text(const Shot& shot) {
-    for (const Picture& picture : shot.pictures)
+    for (const Picture& picture : shot.pictures) {
         fmt::print("{}  {}x{}\n", picture.path, picture.width_px, picture.height_px);
+        if (!picture.luminance_path.empty()) fmt::print("{}\n", picture.luminance_path);
+    }
     fmt::print("took        {:.1f} ms for the tables of this air, {:.1f} ms to draw\n", shot.tables_ms,
                shot.draw_ms);
     fmt::print("OpenGL      {}\n", shot.renderer);
@@ -113,6 +147,7 @@ void print_json(const Shot& shot) {
                                     {"path", picture.path},
                                     {"width_px", picture.width_px},
                                     {"height_px", picture.height_px}});
+        if (!picture.luminance_path.empty()) json["pictures"].back()["luminance"] = picture.luminance_path;
     }
     json["tables_ms"] = shot.tables_ms;
     json["draw_ms"] = shot.draw_ms;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/eye/point_threshold.h"
 #include "render/eye/thresholds.h"
 
 namespace skyig::render::eye {
@@ -87,11 +88,22 @@ double highlight_room(double day_room, double adaptation_cd_m2) noexcept {
 }
 
 double point_gain(const DisplaySettings& display, double adaptation_cd_m2) noexcept {
+    // Chosen by looking: eyes before a display are not as dark-adapted, nor its codes as fine, as the
+    // threshold by night supposes.
+    constexpr double kNightAbove = 30.0;
+    constexpr double kDayAbove = 4.0;
     const double adaptation = std::max(adaptation_cd_m2, kDarkest_cd_m2);
     const ToneCurve curve = tone_curve(display, adaptation);
-    const double field = std::pow(10.0, curve.p + (curve.q - 1.0) * std::log10(adaptation));
-    if (display.tone == ToneOperator::kLinear || display.tone == ToneOperator::kReinhard) return field;
-    return std::sqrt(ward_gain(display, adaptation) * field);
+    if (display.tone == ToneOperator::kLinear || display.tone == ToneOperator::kReinhard)
+        return std::pow(10.0, curve.p + (curve.q - 1.0) * std::log10(adaptation));
+    const double room =
+        display.tone == ToneOperator::kHybrid ? highlight_room(display.highlight_room, adaptation) : 0.0;
+    const double field = std::pow(10.0, curve.p - room + curve.q * std::log10(adaptation));
+    const double behind =
+        std::clamp(field, display.black_cd_m2 + display.reflected_cd_m2, display.max_luminance_cd_m2);
+    const double above =
+        kNightAbove * std::pow(kDayAbove / kNightAbove, shaders64::photopic_share(adaptation));
+    return above * threshold_lux(behind) / threshold_lux(adaptation);
 }
 
 shaders64::ToneParameters tone_parameters(const DisplaySettings& display, double adaptation_cd_m2) noexcept {

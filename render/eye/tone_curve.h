@@ -27,9 +27,9 @@ inline constexpr double kTumblinZero_cd_m2 = 1.5940429e-4;
 /// - kReinhard: as kLinear; what tone_parameters() adds compresses it.
 [[nodiscard]] ToneCurve tone_curve(const DisplaySettings& display, double adaptation_cd_m2) noexcept;
 
-/// Gain of point sources, display cd/m2 per world cd/m2: between that of a field adapted to itself, which by
-/// night shows every star of the fourth magnitude as white, and Ward's (1994), which leaves the sixth below a
-/// display code: their geometric mean, chosen by looking. kLinear, kReinhard: the field's.
+/// Gain of point sources, display cd/m2 per world cd/m2: what makes a star at the threshold before the
+/// scene's adaptation luminance stand 30 times by night, by day 4 times above the threshold before that
+/// luminance as it is displayed (threshold_lux() of both). kLinear, kReinhard: the field's.
 [[nodiscard]] double point_gain(const DisplaySettings& display, double adaptation_cd_m2) noexcept;
 
 /// log10 of the room that kHybrid leaves on the display for what is brighter than the log-average of the

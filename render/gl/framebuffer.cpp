@@ -10,7 +10,24 @@
 
 namespace skyig::render::gl {
 
-Framebuffer::Framebuffer(int width_px, int height_px) : width_px_(width_px), height_px_(height_px) {
+namespace {
+
+GLenum internal_format(PixelFormat format) {
+    switch (format) {
+        case PixelFormat::kRgba16F:
+            return GL_RGBA16F;
+        case PixelFormat::kRgba32F:
+            return GL_RGBA32F;
+        case PixelFormat::kRgba8:
+            break;
+    }
+    return GL_RGBA8;
+}
+
+}  // namespace
+
+Framebuffer::Framebuffer(int width_px, int height_px, PixelFormat format)
+    : width_px_(width_px), height_px_(height_px) {
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (width_px < 1 || height_px < 1 || width_px > limit || height_px > limit) {
@@ -19,7 +36,7 @@ Framebuffer::Framebuffer(int width_px, int height_px) : width_px_(width_px), hei
                                  std::to_string(limit));
     }
     glCreateTextures(GL_TEXTURE_2D, 1, &texture_);
-    glTextureStorage2D(texture_, 1, GL_RGBA8, width_px, height_px);
+    glTextureStorage2D(texture_, 1, internal_format(format), width_px, height_px);
     glCreateFramebuffers(1, &framebuffer_);
     glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, texture_, 0);
     if (glCheckNamedFramebufferStatus(framebuffer_, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
@@ -29,7 +46,8 @@ Framebuffer::Framebuffer(int width_px, int height_px) : width_px_(width_px), hei
     // A new texture holds whatever was in its memory, and a channel may be read before it is drawn.
     constexpr std::array<GLfloat, 4> kBlack{0.0F, 0.0F, 0.0F, 1.0F};
     glClearNamedFramebufferfv(framebuffer_, GL_COLOR, 0, kBlack.data());
-    row_.resize(static_cast<std::size_t>(width_px) * 4);
+    // The widest row that is read: three floats a pixel.
+    row_.resize(static_cast<std::size_t>(width_px) * 3 * sizeof(float));
 }
 
 Framebuffer::~Framebuffer() {
@@ -53,21 +71,35 @@ Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
     return *this;
 }
 
-void Framebuffer::bind(int guard_px) const {
+void Framebuffer::bind() const {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_);
-    glViewport(-guard_px, -guard_px, width_px_ + 2 * guard_px, height_px_ + 2 * guard_px);
+    glViewport(0, 0, width_px_, height_px_);
 }
 
 void Framebuffer::read_rgba8(std::span<std::byte> top_down) {
-    const std::size_t stride = row_.size();
-    const auto rows = static_cast<std::size_t>(height_px_);
-    if (top_down.size() < stride * rows) return;
+    const std::size_t bytes = static_cast<std::size_t>(width_px_) * static_cast<std::size_t>(height_px_) * 4;
+    if (top_down.size() < bytes) return;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
     glReadPixels(0, 0, width_px_, height_px_, GL_RGBA, GL_UNSIGNED_BYTE, top_down.data());
-    for (std::size_t low = 0, high = rows - 1; low < high; ++low, --high) {
-        std::memcpy(row_.data(), &top_down[low * stride], stride);
-        std::memcpy(&top_down[low * stride], &top_down[high * stride], stride);
-        std::memcpy(&top_down[high * stride], row_.data(), stride);
+    turn_over(top_down.first(bytes));
+}
+
+void Framebuffer::read_rgb32f(std::span<float> top_down) {
+    const std::size_t floats = static_cast<std::size_t>(width_px_) * static_cast<std::size_t>(height_px_) * 3;
+    if (top_down.size() < floats) return;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+    glReadPixels(0, 0, width_px_, height_px_, GL_RGB, GL_FLOAT, top_down.data());
+    turn_over(std::as_writable_bytes(top_down.first(floats)));
+}
+
+// GL's first row is the lowest.
+void Framebuffer::turn_over(std::span<std::byte> rows) {
+    const auto count = static_cast<std::size_t>(height_px_);
+    const std::size_t stride = rows.size() / count;
+    for (std::size_t low = 0, high = count - 1; low < high; ++low, --high) {
+        std::memcpy(row_.data(), &rows[low * stride], stride);
+        std::memcpy(&rows[low * stride], &rows[high * stride], stride);
+        std::memcpy(&rows[high * stride], row_.data(), stride);
     }
 }
 

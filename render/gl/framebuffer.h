@@ -1,4 +1,4 @@
-// The picture of one channel: RGBA, 8 bits, read back on demand.
+// The picture of one channel, read back on demand.
 #pragma once
 
 #include <cstddef>
@@ -7,27 +7,33 @@
 
 namespace skyig::render::gl {
 
+enum class PixelFormat { kRgba8, kRgba16F, kRgba32F };
+
 class Framebuffer {
   public:
     /// Black and opaque until something is drawn.
     /// \throws std::runtime_error if the driver refuses the size
-    Framebuffer(int width_px, int height_px);
+    Framebuffer(int width_px, int height_px, PixelFormat format = PixelFormat::kRgba8);
     ~Framebuffer();
     Framebuffer(Framebuffer&& other) noexcept;
     Framebuffer& operator=(Framebuffer&& other) noexcept;
     Framebuffer(const Framebuffer&) = delete;
     Framebuffer& operator=(const Framebuffer&) = delete;
 
-    /// Draws go here from now on, to a viewport that is larger than the picture by `guard_px` on each side.
-    void bind(int guard_px = 0) const;
+    /// Draws go here from now on.
+    void bind() const;
 
     /// Width * height * 4 bytes, top row first. Waits for the pixels.
     void read_rgba8(std::span<std::byte> top_down);
+    /// Width * height * 3 floats, top row first; of an 8-bit picture 0..1. Waits for the pixels.
+    void read_rgb32f(std::span<float> top_down);
 
     [[nodiscard]] int width_px() const noexcept { return width_px_; }
     [[nodiscard]] int height_px() const noexcept { return height_px_; }
 
   private:
+    void turn_over(std::span<std::byte> rows);
+
     unsigned framebuffer_ = 0;
     unsigned texture_ = 0;
     int width_px_ = 0;

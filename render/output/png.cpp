@@ -7,8 +7,8 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
+
+#include "render/output/partial_file.h"
 
 namespace skyig::render::output {
 
@@ -84,13 +84,6 @@ bool write_picture(Sink& sink, int width_px, int height_px, std::span<const std:
     png_destroy_write_struct(&png, &info);
     if (!written && sink.reason[0] == '\0') keep(sink, "libpng has no memory");
     return written;
-}
-
-// As root, a device given as a path would be removed like any file.
-void remove_partial(const std::string& path) {
-    std::error_code ignored;
-    if (std::filesystem::symlink_status(path, ignored).type() == std::filesystem::file_type::regular)
-        std::filesystem::remove(path, ignored);
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ TEST(SkySettings, ReadsTheModelsWithTheirParameters) {
     const LoadResult result = parse_config(with(R"(
 [sky]
 model = "windlight"
+star_scintillation = false
 [sky.daycycle]
 desaturation = 0.3
 [sky.cie]
@@ -56,6 +57,8 @@ east_angle_deg = -20
     ASSERT_TRUE(result) << to_text(result.errors.front());
     const Sky& sky = result.config->sky;
     EXPECT_EQ(sky.model, SkyModel::kWindlight);
+    EXPECT_FALSE(sky.star_scintillation);
+    EXPECT_TRUE(Sky{}.star_scintillation);
     EXPECT_EQ(sky.day_cycle.desaturation, 0.3);
     EXPECT_EQ(sky.cie.type, 16);
     EXPECT_EQ(sky.cie.zenith_luminance_cd_m2, 5000.0);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -226,6 +228,26 @@ TEST(Skyig, NumbersThatAreNotFiniteAreWrongUsage) {
     }
 }
 
+TEST(Skyig, ToneTellsALineOfJsonForEachLuminance) {
+    const Finished finished =
+        skyig({"tone", "--operator", "tumblin", "--adaptation", "0.001", "--display-max", "100",
+               "--display-adaptation", "50", "--ambient", "1", "--gamma", "2.2", "0.001", "0", "inf"});
+    ASSERT_EQ(finished.status, 0) << finished.err;
+    std::vector<Json> lines;
+    std::size_t begin = 0;
+    for (std::size_t end = 0; (end = finished.out.find('\n', begin)) != std::string::npos; begin = end + 1)
+        lines.push_back(Json::parse(finished.out.substr(begin, end - begin)));
+    ASSERT_EQ(lines.size(), 3U);
+    // A row of tests/data/eye/tumblin_rushmeier.csv.
+    EXPECT_EQ(lines[0].at("luminance"), 0.001);
+    EXPECT_NEAR(lines[0].at("display_cd_m2").get<double>(), 9.575193389, 1e-3);
+    EXPECT_NEAR(lines[0].at("n").get<double>(), 0.327424275, 1e-4);
+    EXPECT_EQ(lines[0].at("code8"), 83);
+    EXPECT_EQ(lines[1].at("code8"), 0);
+    EXPECT_TRUE(lines[2].at("luminance").is_null());
+    EXPECT_EQ(lines[2].at("code8"), 255);
+}
+
 TEST(Skyig, FlightErrorsNameFileAndLine) {
     const Site site;
     const std::string csv = site.scratch.write(
@@ -265,6 +287,24 @@ TEST(Skyig, ShotDrawsEveryChannelOfASite) {
     EXPECT_EQ(png_size(site.scratch.file("night_left.png")), std::make_pair(32U, 24U));
     EXPECT_EQ(png_size(site.scratch.file("night_right.png")), std::make_pair(40U, 24U));
     EXPECT_THAT(finished.out, HasSubstr("Moon "));
+}
+
+TEST(Skyig, ShotWritesTheLightOfEveryPixelBesideThePicture) {
+    const Site site;
+    const std::string light = site.scratch.file("light.pfm");
+    const Finished finished =
+        skyig({"shot", "--utc", "2026-06-21T22:00:00Z", "--width", "48", "--height", "32", "--out",
+               site.scratch.file("light.png"), "--luminance", light, "--json"});
+    ASSERT_EQ(finished.status, 0) << finished.err;
+    EXPECT_EQ(Json::parse(finished.out).at("pictures").at(0).at("luminance"), light);
+    std::ifstream file(light, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    const std::string heading = "PF\n48 32\n-1.0\n";
+    ASSERT_EQ(bytes.size(), heading.size() + std::size_t{48} * 32 * 3 * sizeof(float));
+    EXPECT_EQ(bytes.substr(0, heading.size()), heading);
+    expect_failure(skyig({"shot", "--width", "8", "--height", "8", "--out", site.scratch.file("x.png"),
+                          "--luminance", "no/such/directory/x.pfm"}),
+                   "no/such/directory/x.pfm");
 }
 
 TEST(Skyig, ShotThatCannotBeWrittenIsStatusOne) {

@@ -73,7 +73,41 @@ TEST(Plan, StarsGoBecauseTheSkyIsBrightNotBecauseTheSunIsUp) {
     EXPECT_FALSE(plan.needs(Pass::kStars));
     plan_stars(plan, scene, 2e-4, kNone_mag);  // the same Sun, seen from above the air
     EXPECT_TRUE(plan.needs(Pass::kStars));
-    EXPECT_GT(plan.star_limit_mag, 7.5);
+    EXPECT_GT(plan.stars.limit_mag, 6.5);
+}
+
+TEST(Plan, StarsTwinkleWhereItShowsAndIsAskedFor) {
+    Scene scene = make_scene(-30, 180, -30, 0, 1000);
+    Plan plan = plan_of(scene, fresh(scene));
+    constexpr double kHalfCode_mag = 7.0;
+    plan_stars(plan, scene, 2e-4, kHalfCode_mag);
+    EXPECT_FALSE(plan.stars.twinkle);
+    scene.sky.star_scintillation = true;
+    plan_stars(plan, scene, 2e-4, kHalfCode_mag);
+    EXPECT_TRUE(plan.stars.twinkle);
+    EXPECT_EQ(plan[Pass::kStars].reason, "some stars outshine the sky, and twinkle");
+    EXPECT_NEAR(plan.stars.twinkle_limit_mag, kHalfCode_mag + 2.5 * std::log10(1.5 * std::exp(-0.125)), 1e-9);
+    // Nothing is left of the air.
+    scene.eye.height_m = 200e3;
+    plan_stars(plan, scene, 2e-4, kHalfCode_mag);
+    EXPECT_FALSE(plan.stars.twinkle);
+    // No star is bright enough for a half code to come and go.
+    scene.eye.height_m = 12e3;
+    plan_stars(plan, scene, 2e-4, -0.5);
+    EXPECT_TRUE(plan.needs(Pass::kStars));
+    EXPECT_FALSE(plan.stars.twinkle);
+}
+
+TEST(Plan, AllStarsAreDrawnWhereThereIsNoEyeButNotWhatIsSwitchedOff) {
+    Scene scene = make_scene(30, 180, 10, 0, 1000);
+    Plan plan = plan_of(scene, fresh(scene));
+    plan_all_stars(plan, scene);
+    EXPECT_TRUE(plan.needs(Pass::kStars));
+    EXPECT_FALSE(plan.stars.seen_only);
+    EXPECT_GT(plan.stars.limit_mag, 8.0);
+    scene.stars.intensity = 0.0;
+    plan_all_stars(plan, scene);
+    EXPECT_FALSE(plan.needs(Pass::kStars));
 }
 
 TEST(Plan, PlanetsCountAsStarsForTheDecision) {

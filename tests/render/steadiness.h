@@ -15,6 +15,7 @@ namespace skyig::render::tests {
 struct Steps {
     int largest = 0;  ///< of any byte of any pixel, display codes
     int at_frame = 0;
+    double brightness = 0.0;  ///< of a channel's mean, display codes
 };
 
 /// Draws frames [first, first + count) of a flight at 160x128, ahead and astern, without discs.
@@ -36,10 +37,16 @@ inline Steps largest_step(const Flight& flight, int first, int count) {
         for (std::size_t i = 0; i < channels.size(); ++i) {
             renderer.draw(i);
             renderer.read_back(i, now);
+            double sum = 0.0;
             for (std::size_t k = 0; frame > first && k < kBytes; ++k) {
-                const int step = std::abs(std::to_integer<int>(now[k]) - std::to_integer<int>(last[i][k]));
-                if (step > steps.largest) steps = {step, frame};
+                const int change = std::to_integer<int>(now[k]) - std::to_integer<int>(last[i][k]);
+                sum += change;
+                if (std::abs(change) <= steps.largest) continue;
+                steps.largest = std::abs(change);
+                steps.at_frame = frame;
             }
+            // A quarter of the bytes never changes: it is alpha.
+            steps.brightness = std::max(steps.brightness, std::abs(sum) / (0.75 * kBytes));
             std::swap(last[i], now);
         }
     }

@@ -12,8 +12,12 @@ struct ToneParameters {
     real inv_display_max;    // 1 / luminance of full white, m2/cd
     real ambient;            // luminance of the display at code 0, parts of full white
     real shoulder;           // parts of full white above which brightness is compressed; 1: it is clipped
-    real encode_power;       // 0: sRGB curve, > 0: 1 / gamma, < 0: none, linear and without bounds
+    real encode_power;       // 0: sRGB curve, > 0: 1 / gamma, -1: none, linear and without bounds,
+                             // -2: luminance itself, see stores_luminance()
 };
+
+// Targets of luminance hold linear Rec.709 times 2^log2_gain: no eye, no display (render/eye/exposure.h).
+SKYIG_INLINE bool stores_luminance(ToneParameters tone) { return tone.encode_power < real(-1.5); }
 
 SKYIG_INLINE real luminance_709(rvec3 rgb) { return real(0.2126) * rgb.x + real(0.7152) * rgb.y + real(0.0722) * rgb.z; }
 
@@ -48,6 +52,7 @@ SKYIG_INLINE rvec3 night_coloured(rvec3 rgb, real photopic) {
 
 // World linear Rec.709, cd/m2 -> display linear, 1 = full white, not clipped.
 SKYIG_INLINE rvec3 display_linear(rvec3 rgb_cd_m2, ToneParameters tone) {
+    if (stores_luminance(tone)) return rgb_cd_m2 * exp2(tone.log2_gain);
     if (!(luminance_709(rgb_cd_m2) > real(1e-12))) return rvec3(real(0.0));
     rvec3 finite = min(rgb_cd_m2, rvec3(real(1e12)));
     real luminance = max(luminance_709(finite), real(1e-12));
@@ -73,6 +78,7 @@ SKYIG_INLINE rvec3 highlights(rvec3 display, real shoulder) {
 
 // Display linear -> display code in 0..1. The display adds its black and what it reflects to all that it is sent.
 SKYIG_INLINE rvec3 encoded(rvec3 display, ToneParameters tone) {
+    if (stores_luminance(tone)) return min(display, rvec3(real(65504.0)));
     if (tone.encode_power < real(0.0)) return display;
     rvec3 sent = highlights(display - rvec3(tone.ambient), tone.shoulder);
     rvec3 v = clamp(sent, rvec3(real(0.0)), rvec3(real(1.0)));

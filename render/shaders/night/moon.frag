@@ -29,7 +29,7 @@ void main() {
     vec3 light = v_light * face;
     // An eclipsed Moon is looked at with the middle of the eye, which has no rods and adapts to it: in the shadow its
     // colours stay down to where cones end, and what would overdrive the display keeps its hue.
-    float shadow = 1.0 - sun.direct;
+    float shadow = stores_luminance(u_tone) ? 0.0 : 1.0 - sun.direct;
     float luminance = luminance_709(light);
     float cones = smoothstep(-3.0, -2.0, log2(max(luminance, 1e-9)) * 0.30103);
     ToneParameters tone = u_tone;

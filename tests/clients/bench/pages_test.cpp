@@ -76,8 +76,8 @@ TEST(Pages, AFolderOfJsonBecomesPagesAndPlots) {
     fs::create_directories(folder);
     std::ofstream(folder / "dials.json") << to_json(tests::sample_report());
     const std::vector<fs::path> written = render_pages(folder);
-    EXPECT_EQ(written,
-              (std::vector<fs::path>{folder / "dials.md", folder / "dials-hands.svg", folder / "index.md"}));
+    EXPECT_EQ(written, (std::vector<fs::path>{folder / "dials.md", folder / "dials-hands.svg",
+                                              folder / "dials-noon.svg", folder / "index.md"}));
     EXPECT_EQ(read_text(folder / "dials.md"), family_page(tests::sample_report()));
     EXPECT_TRUE(read_text(folder / "dials-hands.svg").starts_with("<svg "));
     fs::remove_all(folder);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <regex>
 #include <string>
 #include <vector>
@@ -104,6 +105,24 @@ TEST(Plot, EveryModelOfManyHasAShape) {
     EXPECT_FALSE(elements_of(svg).empty());
     EXPECT_EQ(count_of(svg, "<g><title>"), 14U);
     EXPECT_EQ(count_of(svg, "class=\"shape\""), 7U);
+}
+
+TEST(Plot, CurvesStandOnALogarithmicAxisAndStayInTheFrame) {
+    const std::string svg = to_svg(tests::sample_report().curves[0]);
+    EXPECT_FALSE(elements_of(svg).empty());
+    EXPECT_EQ(count_of(svg, "<polyline"), 1U);
+    EXPECT_NE(svg.find("Towards &lt;noon&gt;"), std::string::npos);
+    EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
+    // From the bottom over the middle to the top; the point at 0 has no place.
+    const std::size_t begin = svg.find("points=\"") + 8;
+    double x[3] = {};
+    double y[3] = {};
+    ASSERT_EQ(
+        std::sscanf(svg.c_str() + begin, "%lf,%lf %lf,%lf %lf,%lf", &x[0], &y[0], &x[1], &y[1], &x[2], &y[2]),
+        6);
+    EXPECT_NEAR(x[1] - x[0], x[2] - x[1], 0.11);
+    EXPECT_NEAR(y[0] - y[1], y[1] - y[2], 0.11);
+    EXPECT_NE(to_svg(CurvePlot{}).find("</svg>"), std::string::npos);
 }
 
 }  // namespace

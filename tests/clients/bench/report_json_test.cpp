@@ -20,6 +20,9 @@ TEST(ReportJson, ComesBackAsItWasWritten) {
     EXPECT_EQ(again.models[0].costs[0].instructions, 31.0);
     EXPECT_FALSE(again.models[1].costs[0].instructions.has_value());
     EXPECT_EQ(again.plots[0].series[1].quantity, "minute");
+    ASSERT_EQ(again.curves.size(), 1U);
+    EXPECT_EQ(again.curves[0].curves[0].label, "a < b");
+    EXPECT_EQ(again.curves[0].curves[0].points[3].y, 2.0);
     EXPECT_EQ(again.headline.cost, "read");
     EXPECT_EQ(again.headline.worst_cost, "");
     EXPECT_EQ(again.floor_ns, report.floor_ns);

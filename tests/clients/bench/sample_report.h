@@ -32,6 +32,11 @@ inline clients::bench::Report sample_report() {
     report.models = {rough, fine};
     report.plots = {
         {"hands", "Hands <of> a dial", "day", {{"hour", "hour", "read"}, {"minute", "minute", "read"}}}};
+    report.curves = {{"noon",
+                      "Towards <noon>",
+                      "hours",
+                      "light",
+                      {{"a < b", {{0.0, 0.5}, {1.0, 0.0}, {10.0, 0.5}, {100.0, 2.0}}}}}};
     report.headline = {"hour", "day", "read"};
     return report;
 }
