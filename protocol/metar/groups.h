@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "protocol/metar/report.h"
+#include "protocol/metar/values.h"
 
 namespace skyig::protocol::metar {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "protocol/metar/codes.h"
+#include <array>
 
 namespace skyig::protocol::metar {
 namespace {
@@ -14,17 +14,15 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Fault::kEnd)> kF
     "a report begins with METAR, SPECI or neither, then a station of four letters: METAR EGLL",
     "write day (01 to 31), hour and minute of UTC behind the station as 151220Z",
     "write the wind as 24012KT, 24012G25KT or VRB03MPS: direction 000 to 360, speed of two or three digits, "
-    "KT, "
-    "MPS or KMH",
+    "KT, MPS or KMH",
     "write the sector of a variable wind direction as 280V350, 000 to 360, behind the wind",
-    "write visibility as four digits of metres, 0800 or 1200SW, or in statute miles as 10SM, 1/4SM or 1 "
-    "1/2SM",
+    "write visibility as four digits of metres, 0800 or 1200SW, or in statute miles as 10SM, 1/4SM or "
+    "1 1/2SM",
     "write a runway's range as R27L/0600, R27/0550V0800U or R27/P6000FT/D, its state as R27/450093 or "
     "R27/SNOCLO, runways 01 to 36",
     "write weather as intensity (+, -, VC), one of MI BC PR DR BL SH TS FZ and phenomena: -SHRA, FZFG, VCTS",
     "write cloud as FEW, SCT, BKN or OVC and hundreds of feet, CB or TCU behind them: BKN012CB; a hidden sky "
-    "as "
-    "VV002",
+    "as VV002",
     "write temperature and dew point as two digits each, M for minus: 15/08, M02/M11",
     "write the pressure as Q1018 (hPa, 0850 to 1100) or A2992 (hundredths of an inch of mercury)",
     "write the sea's temperature and state or wave height (dm) as W15/S2 or W15/H12",
@@ -32,77 +30,11 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Fault::kEnd)> kF
     "an earlier group has told this; leave one of them",
 };
 
-template <class E, std::size_t count>
-std::string_view name_in(const std::array<std::string_view, count>& names, E value) noexcept {
-    const auto index = static_cast<std::size_t>(value);
-    return index < count ? names[index] : std::string_view();
-}
-
 }  // namespace
 
-std::string_view name(Intensity intensity) noexcept {
-    constexpr std::array<std::string_view, 3> kNames{"light", "moderate", "heavy"};
-    return name_in(kNames, intensity);
-}
-
-std::string_view name(Descriptor descriptor) noexcept {
-    return name_in(kDescriptorCodes, descriptor);
-}
-
-std::string_view name(Phenomenon phenomenon) noexcept {
-    return name_in(kPhenomenonCodes, phenomenon);
-}
-
-std::string_view name(CloudAmount amount) noexcept {
-    return name_in(kAmountCodes, amount);
-}
-
-std::string_view name(ClearCode code) noexcept {
-    return name_in(kClearCodes, code);
-}
-
-std::string_view name(SpeedUnit unit) noexcept {
-    return name_in(kSpeedUnits, unit);
-}
-
-std::string_view compass_name(int direction_deg) noexcept {
-    return name_in(kCompass, direction_deg / 45);
-}
-
-Oktas oktas(CloudAmount amount) noexcept {
-    switch (amount) {
-        case CloudAmount::kFew:
-            return {1, 2};
-        case CloudAmount::kScattered:
-            return {3, 4};
-        case CloudAmount::kBroken:
-            return {5, 7};
-        case CloudAmount::kOvercast:
-        case CloudAmount::kEnd:
-            break;
-    }
-    return {8, 8};
-}
-
-double coverage_percent(CloudAmount amount) noexcept {
-    const auto [least, most] = oktas(amount);
-    return 100.0 * (least + most) / 16.0;
-}
-
-double metres_per_second(int speed, SpeedUnit unit) noexcept {
-    switch (unit) {
-        case SpeedUnit::kKnots:
-            return speed * 0.514444;
-        case SpeedUnit::kKilometresPerHour:
-            return speed / 3.6;
-        case SpeedUnit::kMetresPerSecond:
-            break;
-    }
-    return speed;
-}
-
 std::string_view fault_text(Fault fault) noexcept {
-    return name_in(kFaultTexts, fault);
+    const auto index = static_cast<std::size_t>(fault);
+    return index < kFaultTexts.size() ? kFaultTexts[index] : std::string_view("no fault");
 }
 
 std::string describe(const Problem& problem) {
