@@ -97,13 +97,18 @@ class Dome {
     [[nodiscard]] std::span<const DomeVertex> vertices(std::size_t screen = 0) const noexcept {
         return vertices_[screen];
     }
+    /// Of each vertex, linear Rec.709, cd/m2: what the fade leads to, and, while it lasts, what it began
+    /// with.
+    [[nodiscard]] std::span<const glm::vec3> light() const noexcept { return to_; }
+    [[nodiscard]] std::span<const glm::vec3> light_before() const noexcept { return from_; }
     [[nodiscard]] std::span<const std::uint32_t> indices() const noexcept { return patches_.indices(); }
     /// How far the fade is, 0..1: 1 shows DomeVertex::to.
     [[nodiscard]] double share() const noexcept { return share_; }
     /// What of the indices a view needs; valid until the next call. \param clip_from_mesh  as the vertex
-    /// shader has it
-    [[nodiscard]] std::span<const IndexRange> visible(const glm::dmat4& clip_from_mesh) noexcept {
-        return patches_.visible(clip_from_mesh);
+    /// shader has it \param rows  whole patches, from the nadir
+    [[nodiscard]] std::span<const IndexRange> visible(const glm::dmat4& clip_from_mesh,
+                                                      const QuadRows& rows = {}) noexcept {
+        return patches_.visible(clip_from_mesh, rows);
     }
     [[nodiscard]] const DomeLayout& layout() const noexcept { return layout_; }
     [[nodiscard]] const DomeSize& size() const noexcept { return size_; }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,12 @@ namespace skyig::render {
 struct IndexRange {
     std::size_t first = 0;
     std::size_t count = 0;
+};
+
+/// Some rows of quads: both ends are multiples of DomePatches::kSide, or the last is the grid's own.
+struct QuadRows {
+    std::uint32_t first = 0;
+    std::uint32_t end = std::numeric_limits<std::uint32_t>::max();
 };
 
 /// A grid of rows x columns of directions, cut into patches of at most kSide x kSide quads.
@@ -65,8 +72,9 @@ class DomePatches {
 
     /// The runs of indices whose triangles may show. \param clip_from_dome  its first, second and fourth rows
     /// span the view: -w <= x, y <= w; applied to (direction, 1), its last column shifts all vertices by a
-    /// little. Valid until the next call; allocates nothing.
-    [[nodiscard]] std::span<const IndexRange> visible(const glm::dmat4& clip_from_dome) noexcept;
+    /// little. \param rows  no others. Valid until the next call; allocates nothing.
+    [[nodiscard]] std::span<const IndexRange> visible(const glm::dmat4& clip_from_dome,
+                                                      const QuadRows& rows = {}) noexcept;
 
   private:
     struct Patch {

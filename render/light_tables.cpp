@@ -116,9 +116,9 @@ void LightTables::update_sea(const Scene& scene) noexcept {
         sea_.reset();
         return;
     }
-    sky::SeaSurface surface(sky::slope_variance(scene.ground, scene.sea.all_waves()));
-    if (!sea_ || !alike(sea_->variance(), surface.variance())) {
-        sea_ = surface;
+    const sky::SlopeVariance slopes = sky::slope_variance(scene.ground, scene.sea.all_waves());
+    if (!sea_ || !alike(sea_->variance(), sky::roughened(slopes))) {
+        sea_.emplace(slopes);
         ++revision_;
     }
 }
@@ -126,8 +126,8 @@ void LightTables::update_sea(const Scene& scene) noexcept {
 bool LightTables::same_sea(const Made& made, const Scene& scene) const noexcept {
     if (made.air == 0 || !air_) return true;
     if (air_->model().ground_mirror_albedo <= 0.0F) return !made.sea;
-    const sky::SeaSurface surface(sky::slope_variance(scene.ground, scene.sea.all_waves()));
-    return made.sea && alike(*made.sea, surface.variance());
+    const sky::SlopeVariance slopes = sky::slope_variance(scene.ground, scene.sea.all_waves());
+    return made.sea && alike(*made.sea, sky::roughened(slopes));
 }
 
 void LightTables::update_view(View& view, const Wanted& wanted) {

@@ -7,6 +7,7 @@
 #include "render/eye/point_threshold.h"
 #include "render/geometry.h"
 #include "render/night/star_colour.h"
+#include "render/sky/sea_surface.h"
 #include "render/sky/staleness.h"
 
 namespace skyig::render {
@@ -78,6 +79,7 @@ Cost cost_of(Pass pass) {
         case Pass::kMoonSky:
             return Cost::kNewTable;
         case Pass::kDome:
+        case Pass::kWaves:
         case Pass::kStars:
         case Pass::kCorona:
         case Pass::kSunDisc:
@@ -128,7 +130,7 @@ void plan_skies(Plan& plan, const Scene& scene, const Held& held, double sun_rad
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables", "sun sky", "moon sky", "dome", "stars", "corona", "sun disc", "moon disc"};
+        "air tables", "sun sky", "moon sky", "dome", "waves", "stars", "corona", "sun disc", "moon disc"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -168,6 +170,7 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kAirTables, {air_stale, air_stale ? "the air is new" : "the air has not changed"});
     plan_skies(plan, scene, held, sun_rad, moon_rad);
     put(plan, Pass::kDome, {true, "smooth light of all directions"});
+    put(plan, Pass::kWaves, {false, "not decided yet"});
     put(plan, Pass::kStars, {false, "not decided yet"});
     plan.corona_share = smooth_step(kCoronaBegins, kCoronaWhole, scene.sun.unobscured);
     const double sun_radius_rad = scene.sun.angular_radius_rad;
@@ -187,6 +190,23 @@ DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& qu
     return {std::clamp(held.columns, least.columns, ample.columns),
             std::clamp(held.sky_rows, least.sky_rows, ample.sky_rows),
             std::clamp(held.ground_rows, least.ground_rows, ample.ground_rows)};
+}
+
+void plan_waves(Plan& plan, const Scene& scene, const sky::SeaWaves& waves, bool lit) noexcept {
+    const auto told = scene.sea.all_waves();
+    const bool any =
+        std::any_of(told.begin(), told.end(), [](const Wave& wave) { return sky::wave_slope(wave) > 0.0; });
+    if (scene.ground.kind != Ground::Kind::kSea) {
+        put(plan, Pass::kWaves, {false, "there is no sea"});
+    } else if (!any) {
+        put(plan, Pass::kWaves, {false, "no waves are told: wind alone roughens the sea"});
+    } else if (waves.count == 0) {
+        put(plan, Pass::kWaves, {false, "no wave is two pixels long, seen from here"});
+    } else if (!lit) {
+        put(plan, Pass::kWaves, {false, "neither Sun nor Moon lights them"});
+    } else {
+        put(plan, Pass::kWaves, {true, "pixels resolve waves near the eye"});
+    }
 }
 
 void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept {

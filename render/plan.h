@@ -9,6 +9,7 @@
 #include "render/quality.h"
 #include "render/scene.h"
 #include "render/sky/refraction.h"
+#include "render/sky/sea_waves.h"
 #include "render/sky/sky_view.h"
 
 namespace skyig::render {
@@ -92,14 +93,18 @@ struct Plan {
 [[nodiscard]] double direction_table_error_codes(const sky::SkyViewSize& size) noexcept;
 
 /// \param scene  the frame; \param held  what is in the tables; \param refraction  of the frame's eye and
-/// air. Deterministic: equal input gives an equal plan. Dome and stars are left for plan_dome() and
-/// plan_stars(), which need the light that this plan leads to.
+/// air. Deterministic: equal input gives an equal plan. Dome, waves and stars are left for plan_dome(),
+/// plan_waves() and plan_stars(), which need the light that this plan leads to.
 [[nodiscard]] Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction,
                              const Quality& quality = {}) noexcept;
 
 /// Decides how fine the dome is laid out: the smallest size that keeps to the budget, but no smaller than
 /// `held` while that is not clearly too fine. \param held  the dome in use
 [[nodiscard]] DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& quality) noexcept;
+
+/// Decides on the waves of the sea, drawn over `resolution` of the dome's quads. \param waves  that a pixel
+/// resolves below the eye \param lit  whether Sun or Moon light the air over a sea
+void plan_waves(Plan& plan, const Scene& scene, const sky::SeaWaves& waves, bool lit) noexcept;
 
 /// Decides on the stars and planets. \param background_cd_m2  the darkest sky that they stand before
 /// \param half_code_mag  fainter ones change no picture

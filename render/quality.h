@@ -12,12 +12,13 @@ enum class Pass {
     kSunSky,     ///< direction table of sunlit air
     kMoonSky,    ///< direction table of moonlit air
     kDome,       ///< smooth light of all directions, toned at the vertices
+    kWaves,      ///< waves of the sea, where pixels resolve them
     kStars,
     kCorona,  ///< what is left of the Sun in a total eclipse
     kSunDisc,
     kMoonDisc,
 };
-inline constexpr std::size_t kPassCount = 8;
+inline constexpr std::size_t kPassCount = 9;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 

@@ -13,6 +13,7 @@
 #include "render/gl/mesh.h"
 #include "render/gl/program.h"
 #include "render/screens.h"
+#include "render/sea_pass.h"
 #include "render/sky_frame.h"
 #include "render/star_pass.h"
 
@@ -76,6 +77,7 @@ struct Renderer::Impl {
     std::vector<gl::Mesh> dome_meshes;  // one a screen
     std::uint64_t triangles_revision = 0;
     std::uint64_t vertices_revision = 0;
+    SeaPass sea{screens.distinct.size()};
     StarPass stars;
     Corona corona;
     SunDisc sun_disc;
@@ -122,8 +124,13 @@ void Renderer::Impl::draw_dome(std::size_t index, const glm::dmat4& clip_from_en
     dome_program.set(dome_clip, glm::mat4{clip_from_mesh});
     dome_program.set(dome_half_size, 0.5F * glm::vec2{channel.width_px, channel.height_px});
     dome_program.set(dome_share, static_cast<float>(frame.dome().share()));
-    for (const IndexRange& range : frame.dome().visible(clip_from_mesh))
-        dome_meshes[screens.of_channel[index]].draw_triangles(range.first, range.count);
+    const std::size_t screen = screens.of_channel[index];
+    const auto sea_rows = static_cast<std::uint32_t>(frame.sea_rows());
+    for (const IndexRange& range : frame.dome().visible(clip_from_mesh, {.first = sea_rows}))
+        dome_meshes[screen].draw_triangles(range.first, range.count);
+    if (sea_rows == 0) return;
+    sea.draw(channel, screen, eye::single_precision(frame.tone(screen)), clip_from_mesh,
+             frame.dome().visible(clip_from_mesh, {.end = sea_rows}));
 }
 
 void Renderer::Impl::refresh_deferred() {
@@ -147,6 +154,7 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     m.pixel_rad = finest_pixel_rad(m.channels, scene.channel_views());
     m.frame.prepare(scene, m.pixel_rad);
     m.upload_dome();
+    if (m.frame.sea_rows() > 0) m.sea.prepare(m.frame, m.display.dither);
     m.report.stars_drawn = 0;
     if (m.frame.plan().needs(Pass::kStars)) {
         m.stars.prepare(scene, m.frame, m.pixel_rad);

@@ -107,7 +107,8 @@ struct Wave {
     double period_s = 1.0;
     /// Where it runs to, clockwise from true north.
     double direction_rad = 0.0;
-    /// Added to the phase, which is 0 at a crest at the eye at scene time 0.
+    /// Added to the phase, which is 0 at a crest at scene time 0 where the equator meets the nearest meridian
+    /// of whole five degrees (sky::sea_anchor).
     double phase_rad = 0.0;
     /// How far the crest leads the middle between its troughs, in phase: 0 is a symmetrical wave.
     double leading_rad = 0.0;

@@ -52,6 +52,7 @@ SkyFrame::SkyFrame(const DisplaySettings& display, const Quality& quality, std::
       target_(target),
       tables_(direction_table_size(quality)),
       dome_(displays_.size()),
+      sea_(displays_.size()),
       display_tones_(displays_.size()),
       tones_(displays_.size()),
       clipped_(displays_.size()) {
@@ -67,6 +68,7 @@ void SkyFrame::prepare(const Scene& scene, double pixel_rad) {
     adapt(scene);
     tone_screens(scene, pixel_rad);
     refresh_dome(pixel_rad);
+    refresh_sea(scene, pixel_rad);
     tell_dome();
 }
 
@@ -152,6 +154,7 @@ void SkyFrame::refresh_dome(double pixel_rad) {
                             : replaced          ? Dome::Change::kReplaced
                                                 : Dome::Change::kScaled;
         dome_.look_up(light_, mesh_azimuth_rad_, change);
+        ++light_revision_;
         shaded_.tables = tables_.revision();
         shaded_.sun_scale = light_.sun.scale_xyz;
         shaded_.moon_scale = light_.moon.scale_xyz;
@@ -170,6 +173,33 @@ void SkyFrame::refresh_dome(double pixel_rad) {
     dome_.step();
 }
 
+void SkyFrame::refresh_sea(const Scene& scene, double pixel_rad) {
+    const bool lit = light_.sea != nullptr && (light_.sun.sea != nullptr || light_.moon.sea != nullptr);
+    waves_ = sky::sea_waves(scene, pixel_rad);
+    plan_waves(plan_, scene, waves_, lit);
+    const double height_m = sky::height_above_sea_m(scene);
+    const int rows = plan_.needs(Pass::kWaves) ? SeaMesh::rows(dome_, waves_, height_m, pixel_rad) : 0;
+    const sky::SlopeVariance variance =
+        sky::roughened(sky::slope_variance(scene.ground, scene.sea.all_waves()));
+    sea_shading_ = {height_m,
+                    0.5 / (kEarthRadius_m * height_m),
+                    pixel_rad,
+                    direction_of(light_.glittering().source),
+                    {variance.east_east, variance.north_north, variance.east_north}};
+    const bool laid = rows > 0 && (rows != sea_rows_ || sea_light_seen_ != light_revision_);
+    if (laid) {
+        sea_.lay_out(dome_, light_, mesh_azimuth_rad_, rows);
+        sea_light_seen_ = light_revision_;
+    } else if (rows > 0 && sea_colours_seen_ != vertices_revision_) {
+        sea_.colour(dome_);
+    }
+    if (laid || (rows > 0 && sea_colours_seen_ != vertices_revision_)) ++sea_revision_;
+    if (rows > 0) sea_colours_seen_ = vertices_revision_;
+    sea_rows_ = rows;
+    PlannedPass& planned = plan_.passes[static_cast<std::size_t>(Pass::kWaves)];
+    planned.resolution = {rows, rows > 0 ? dome_.size().columns : 0};
+}
+
 void SkyFrame::tell_dome() noexcept {
     PlannedPass& planned = plan_.passes[static_cast<std::size_t>(Pass::kDome)];
     planned.resolution = {dome_.size().rows(), dome_.size().columns};
@@ -178,8 +208,29 @@ void SkyFrame::tell_dome() noexcept {
 
 glm::dvec3 SkyFrame::exact_colour(const glm::dvec3& direction_enu, std::size_t screen) const {
     const Horizontal at = horizontal_of(direction_enu);
-    const glm::vec3 rgb = light_.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation);
-    return shaders64::shown(glm::dvec3{rgb}, tones_[screen]);
+    const glm::dvec3 rgb{light_.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation)};
+    const bool sea = sea_rows_ > 0 && at.elevation_rad < light_.horizon_elevation_rad;
+    return sea ? waves_colour(direction_enu, rgb, screen) : shaders64::shown(rgb, tones_[screen]);
+}
+
+glm::dvec3 SkyFrame::waves_colour(const glm::dvec3& direction_enu, const glm::dvec3& mean_cd_m2,
+                                  std::size_t screen) const {
+    const SeaShading& sea = sea_shading_;
+    const glm::dvec2 at_m = shaders64::sea_point_m(direction_enu, sea.height_m, sea.curvature_m2);
+    const double footprint_m = shaders64::footprint_m(at_m, sea.height_m, sea.pixel_rad);
+    shaders64::ResolvedSlope slope{};
+    for (const shaders64::WaveTrain& train : waves_.all())
+        slope = shaders64::with_train(slope, train, at_m, footprint_m);
+    const Horizontal at = horizontal_of(direction_enu);
+    const SlopeLight slopes = light_.of_slopes(at.elevation_rad, at.azimuth_rad);
+    const glm::dvec3 smooth{slopes.without_glitter(glm::vec3{mean_cd_m2})};
+    const glm::dvec3 bend = glm::dvec3{slopes.bend_cd_m2} / std::max(shaders64::luminance_709(smooth), 1e-12);
+    const glm::dvec3 to_eye = glm::normalize(glm::dvec3{-at_m, sea.height_m});
+    const glm::dvec3 lit =
+        shaders64::wave_lit({smooth, slopes.east, slopes.north, bend, slopes.glitter}, slope,
+                            shaders64::mirroring_slope(to_eye, sea.source_enu), sea.variance);
+    return glm::mix(shaders64::shown(mean_cd_m2, tones_[screen]), shaders64::shown(lit, tones_[screen]),
+                    shaders64::shaded_share(waves_.trains.front().number_rad_m, footprint_m));
 }
 
 }  // namespace skyig::render

@@ -11,10 +11,20 @@
 #include "render/light_tables.h"
 #include "render/plan.h"
 #include "render/scene.h"
+#include "render/sea_mesh.h"
 #include "render/sky_light.h"
 #include "render/target.h"
 
 namespace skyig::render {
+
+/// As sky/sea.frag takes it.
+struct SeaShading {
+    double height_m = 1.0;
+    double curvature_m2 = 0.0;
+    double pixel_rad = 1e-3;
+    glm::dvec3 source_enu{0.0, 0.0, 1.0};
+    glm::dvec3 variance{1e-3, 1e-3, 0.0};
+};
 
 /// Parts of the probed directions, 0..1.
 struct ClippedLight {
@@ -54,6 +64,14 @@ class SkyFrame {
         return dome_.enu_from_mesh(mesh_azimuth_rad_, light_.horizon_elevation_rad);
     }
 
+    /// Waves of this frame, and where they are drawn: rows of the dome's quads from the nadir, 0 if nowhere.
+    [[nodiscard]] const sky::SeaWaves& waves() const noexcept { return waves_; }
+    [[nodiscard]] const SeaMesh& sea() const noexcept { return sea_; }
+    [[nodiscard]] int sea_rows() const noexcept { return sea_rows_; }
+    /// What all waves' shading shares.
+    [[nodiscard]] const SeaShading& sea_shading() const noexcept { return sea_shading_; }
+    [[nodiscard]] std::uint64_t sea_revision() const noexcept { return sea_revision_; }
+
     /// Rise by one when the dome's triangles or its vertices have changed.
     [[nodiscard]] std::uint64_t triangles_revision() const noexcept { return triangles_revision_; }
     [[nodiscard]] std::uint64_t vertices_revision() const noexcept { return vertices_revision_; }
@@ -71,7 +89,10 @@ class SkyFrame {
     void tone_screens(const Scene& scene, double pixel_rad);
     [[nodiscard]] double luminance_cd_m2(double elevation_rad, double azimuth_rad) const;
     void refresh_dome(double pixel_rad);
+    void refresh_sea(const Scene& scene, double pixel_rad);
     void tell_dome() noexcept;
+    [[nodiscard]] glm::dvec3 waves_colour(const glm::dvec3& direction_enu, const glm::dvec3& mean_cd_m2,
+                                          std::size_t screen) const;
 
     std::vector<DisplaySettings> displays_;  // the same eye before each screen
     Quality quality_;
@@ -80,6 +101,7 @@ class SkyFrame {
     eye::Adaptation adaptation_;
     DomeBend bend_;
     Dome dome_;
+    SeaMesh sea_;
 
     Plan plan_;
     SkyLight light_;
@@ -92,6 +114,14 @@ class SkyFrame {
     double dome_error_codes_ = 0.0;
     std::uint64_t triangles_revision_ = 0;
     std::uint64_t vertices_revision_ = 0;
+    sky::SeaWaves waves_;
+    SeaShading sea_shading_;
+    int sea_rows_ = 0;
+    std::uint64_t sea_revision_ = 0;
+    /// Of the dome when the sea was laid out and when it was coloured.
+    std::uint64_t sea_light_seen_ = 0;
+    std::uint64_t sea_colours_seen_ = 0;
+    std::uint64_t light_revision_ = 0;
 
     // What the dome's colours were made from.
     struct Shaded {

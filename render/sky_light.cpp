@@ -59,4 +59,28 @@ glm::vec3 SkyLight::rgb_cd_m2(double elevation_rad, double azimuth_rad, Side sid
                                                   ground ? dark_ground_cd_m2(*this, straight_rad) : 0.0));
 }
 
+const LitAir& SkyLight::glittering() const noexcept {
+    // Moonlight fades in below this.
+    constexpr double kNight_rad = -0.052;
+    return sun.view != nullptr && (moon.view == nullptr || sun.source.elevation_rad > kNight_rad) ? sun
+                                                                                                  : moon;
+}
+
+SlopeLight SkyLight::of_slopes(double elevation_rad, double azimuth_rad) const noexcept {
+    const double above_rad = straight_elevation_rad(elevation_rad) - straight_horizon_rad;
+    SlopeLight sum;
+    for (const LitAir* lit : {&sun, &moon}) {
+        if (lit->view == nullptr || lit->sea == nullptr) continue;
+        const auto slopes = lit->sea->of_slopes(lit->sea->horizon_elevation_rad() + above_rad, azimuth_rad,
+                                                lit->source.azimuth_rad);
+        sum.east += rec709_from_xyz(lit->scale_xyz * slopes.east_xyz);
+        sum.north += rec709_from_xyz(lit->scale_xyz * slopes.north_xyz);
+        sum.bend_cd_m2 += lit->scale_xyz.y * slopes.bend;
+        if (lit != &glittering()) continue;
+        sum.glitter = rec709_from_xyz(lit->scale_xyz * slopes.glitter_xyz);
+        sum.density = slopes.density;
+    }
+    return sum;
+}
+
 }  // namespace skyig::render

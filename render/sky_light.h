@@ -25,6 +25,20 @@ struct LitAir {
 /// Which side of the horizon a direction is taken from when it lies on the edge.
 enum class Side { kByElevation, kSky, kGround };
 
+/// What slopes of the sea change of its light, linear Rec.709: shaders' WaveLight says how.
+struct SlopeLight {
+    glm::vec3 east{0.0F};
+    glm::vec3 north{0.0F};
+    glm::vec3 bend_cd_m2{0.0F};
+    glm::vec3 glitter{0.0F};
+    /// Of the mirroring slope, over all slopes: the mean light holds `glitter` times this.
+    float density = 0.0F;
+
+    [[nodiscard]] glm::vec3 without_glitter(const glm::vec3& mean) const noexcept {
+        return glm::max(mean - density * glitter, 0.0F);
+    }
+};
+
 struct SkyLight {
     LitAir sun;
     LitAir moon;
@@ -49,6 +63,11 @@ struct SkyLight {
     /// \param elevation_rad  apparent
     /// \return linear Rec.709, cd/m2 (components may be negative outside the gamut; luminance is >= 0).
     [[nodiscard]] glm::vec3 rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept;
+
+    /// Of the sea in that direction, below the horizon; the dark sky's part has none. Nothing over land.
+    [[nodiscard]] SlopeLight of_slopes(double elevation_rad, double azimuth_rad) const noexcept;
+    /// The one source whose glitter waves break up: the Sun while its light counts, else the Moon.
+    [[nodiscard]] const LitAir& glittering() const noexcept;
 };
 
 }  // namespace skyig::render

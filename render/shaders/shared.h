@@ -12,13 +12,14 @@ using real = float;
 using rvec2 = glm::vec2;
 using rvec3 = glm::vec3;
 using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, glm::exp, glm::sqrt, glm::sin,
-    glm::cos, glm::tan, glm::asin, glm::dot, glm::length, glm::abs;
+    glm::cos, glm::tan, glm::asin, glm::dot, glm::length, glm::abs, glm::floor;
 #include "render/shaders/common/angle.glsl"
 #include "render/shaders/eye/tone.glsl"
 #include "render/shaders/night/moon.glsl"
 #include "render/shaders/sky/aerial.glsl"
 #include "render/shaders/sky/cie.glsl"
 #include "render/shaders/sky/preetham.glsl"
+#include "render/shaders/sky/sea.glsl"
 #include "render/shaders/sky/windlight.glsl"
 }  // namespace skyig::render::shaders32
 
@@ -27,13 +28,14 @@ using real = double;
 using rvec2 = glm::dvec2;
 using rvec3 = glm::dvec3;
 using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, glm::exp, glm::sqrt, glm::sin,
-    glm::cos, glm::tan, glm::asin, glm::dot, glm::length, glm::abs;
+    glm::cos, glm::tan, glm::asin, glm::dot, glm::length, glm::abs, glm::floor;
 #include "render/shaders/common/angle.glsl"
 #include "render/shaders/eye/tone.glsl"
 #include "render/shaders/night/moon.glsl"
 #include "render/shaders/sky/aerial.glsl"
 #include "render/shaders/sky/cie.glsl"
 #include "render/shaders/sky/preetham.glsl"
+#include "render/shaders/sky/sea.glsl"
 #include "render/shaders/sky/windlight.glsl"
 }  // namespace skyig::render::shaders64
 

@@ -37,6 +37,23 @@ class SeaView {
     [[nodiscard]] glm::vec3 xyz(double elevation_rad, double azimuth_rad,
                                 double source_azimuth_rad) const noexcept;
 
+    /// What waves that are seen one by one change of xyz(), for slopes of the water to the east and to the
+    /// north, through the air before them.
+    struct OfSlopes {
+        // Hermite series of the reflected sky about the level, weighted by the slopes' density: XYZ a unit of
+        // slope, and Y a unit of slope^2 east-east, north-north and east-north (which counts twice).
+        glm::vec3 east_xyz{0.0F};
+        glm::vec3 north_xyz{0.0F};
+        glm::vec3 bend{0.0F};
+        /// XYZ a unit of density of slopes at the one that mirrors the source.
+        glm::vec3 glitter_xyz{0.0F};
+        /// Of that slope, over all slopes: xyz() holds as many of `glitter_xyz`.
+        float density = 0.0F;
+    };
+    /// As xyz(); linear between nodes.
+    [[nodiscard]] OfSlopes of_slopes(double elevation_rad, double azimuth_rad,
+                                     double source_azimuth_rad) const noexcept;
+
     [[nodiscard]] double horizon_elevation_rad() const noexcept;
 
   private:

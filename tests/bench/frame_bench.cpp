@@ -106,10 +106,16 @@ int main(int argc, char** argv) {
     std::printf("%s, %dx%d, medians of %d rounds\n", context.description().c_str(), kWidth, kHeight, rounds);
     std::printf("%-6s %9s %9s %9s %9s %11s %9s %6s\n", "scene", "write ms", "draw ms", "writes", "of cpu",
                 "shared ms", "read ms", "stars");
-    for (auto& [name, scene] : tests::four_times()) {
+    auto scenes = tests::four_times();
+    scenes.push_back({"sea", tests::make_scene(48.0, 185.0, -10.0, 40.0, 30.0)});
+    scenes.push_back({"waves", scenes.back().scene});
+    scenes[4].scene.ground.kind = Ground::Kind::kSea;
+    tests::add_waves(scenes[5].scene);
+    for (auto& [name, scene] : scenes) {
         const double yaw = name == "dawn" ? 120.0 : name == "dusk" ? 235.0 : 175.0;
+        const double pitch = scene.ground.kind == Ground::Kind::kSea ? -20.0 : 8.0;  // nine tenths of it sea
         tests::add_view(scene, tests::symmetric_frustum(30.0, kWidth, kHeight),
-                        tests::view_from_enu(yaw, 8.0, 0.0));
+                        tests::view_from_enu(yaw, pitch, 0.0));
         Renderer renderer({{"only", kWidth, kHeight}}, {});
         const Costs costs = measure(renderer, scene, rounds);
         std::printf("%-6s %9.2f %9.2f %9.2f %9.2f %11.3f %9.2f %6zu\n", name.c_str(), median(costs.write),

@@ -84,6 +84,7 @@ TEST_F(Allocation, SteadyFramesAllocateNothingAndSoAgainAfterNewAir) {
     // Two screens: what is toned for each is toned twice.
     const std::vector<Channel> channels{{"a", 64, 64}, {"b", 64, 64, Screen{100.0, 50.0}}};
     for (auto& [name, scene] : four_times()) {
+        if (name == "dawn") add_waves(scene);
         scene.sky.star_scintillation = true;
         for (const double turn : {-30.0, 30.0})
             add_view(scene, symmetric_frustum(30.0, 64, 64), view_from_enu(180.0, 10.0, 0.0, turn));

@@ -202,6 +202,23 @@ TEST(Plan, ForcedPassesRunAndSaySo) {
     EXPECT_EQ(plan.moon_share, 1.0);
 }
 
+TEST(Plan, WavesAreDrawnWhereThereAreSomeToSee) {
+    Scene scene = make_scene(30, 180, -20, 0, 100);
+    const auto planned = [](const Scene& s, bool lit = true) {
+        Plan plan = plan_of(s, fresh(s));
+        plan_waves(plan, s, sky::sea_waves(s, 8e-4), lit);
+        return plan[Pass::kWaves];
+    };
+    EXPECT_EQ(planned(scene).reason, "there is no sea");
+    scene.ground.kind = Ground::Kind::kSea;
+    EXPECT_FALSE(planned(scene).needed) << "wind alone";
+    tests::add_waves(scene);
+    EXPECT_TRUE(planned(scene).needed);
+    EXPECT_FALSE(planned(scene, false).needed);
+    scene.eye.height_m = 400e3;
+    EXPECT_FALSE(planned(scene).needed) << "too small to see";
+}
+
 TEST(Plan, DirectionTableGrowsWithTheBudget) {
     int last_columns = 1000;
     for (const double budget : {0.25, 0.5, 4.0}) {

@@ -63,6 +63,24 @@ inline std::vector<NamedScene> four_times() {
             {"night", make_scene(-35.0, 0.0, 38.0, 170.0, 600.0)}};
 }
 
+/// Puts a sea with a breeze and four told trains of waves below a scene.
+inline void add_waves(Scene& scene) {
+    scene.ground.kind = Ground::Kind::kSea;
+    scene.ground.wind_m_s = 5.0;
+    scene.ground.wind_from_rad = 0.5;
+    const Wave swell{.height_m = 2.0, .length_m = 110.0, .period_s = 8.4, .direction_rad = 0.9};
+    const Wave sea{.height_m = 1.0,
+                   .length_m = 60.0,
+                   .period_s = 6.2,
+                   .direction_rad = 1.4,
+                   .phase_rad = 1.0,
+                   .leading_rad = 0.3};
+    const Wave chop{.height_m = 0.5, .length_m = 27.0, .period_s = 4.2, .direction_rad = 0.5};
+    const Wave ripple{.height_m = 0.3, .length_m = 14.0, .period_s = 3.0, .direction_rad = 1.9};
+    for (const Wave& wave : {chop, swell, sea, ripple})
+        scene.sea.waves[scene.sea.wave_count++] = wave;
+}
+
 /// Looks along an azimuth, pitched and rolled as an ownship would be.
 inline glm::dmat3 view_from_enu(double yaw_deg, double pitch_deg, double roll_deg,
                                 double view_yaw_deg = 0.0) {

@@ -40,7 +40,7 @@ TEST(SeaLight, DomeDrawsGlitterWithinACode) {
                     c.name, errors.median, errors.p99, errors.largest, size.sky_rows, size.ground_rows,
                     size.columns);
         EXPECT_LT(errors.p99, 0.5) << c.name;
-        EXPECT_LT(errors.largest, 3.0) << c.name;
+        EXPECT_LT(errors.largest, 1.5) << c.name;
     }
 }
 

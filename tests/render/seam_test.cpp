@@ -141,6 +141,28 @@ TEST_F(Seam, BrightStarOnTheSeamMatchesToo) {
     }
 }
 
+TEST_F(Seam, WavesRunOnAcrossIt) {
+    const std::vector<Channel> channels{{"left", kWidth, kHeight}, {"right", kWidth, kHeight}};
+    const Frustum frustum = centred_on_edge(30.0, kWidth, kHeight);
+    for (const double height_m : {20.0, 600.0}) {
+        Scene scene = make_scene(35.0, 180.0, -30.0, 90.0, height_m);
+        add_waves(scene);
+        scene.time_s = 12.3;
+        for (const double yaw_deg : {150.0, 210.0})
+            add_view(scene, frustum, view_from_enu(yaw_deg, 0.0, 0.0));
+        const auto pictures = draw(channels, scene, undithered());
+        int contrast = 0;
+        for (int y = 4; y < kHeight; ++y) {
+            contrast = std::max(contrast,
+                                difference(pictures[0].at(kWidth - 1, y), pictures[0].at(kWidth - 1, y - 4)));
+        }
+        const int worst = largest_difference_of_seam(pictures[0], pictures[1]);
+        std::printf("waves from %.0f m: %d codes at most; they step by %d\n", height_m, worst, contrast);
+        EXPECT_GE(contrast, 5) << "no waves on the seam";
+        EXPECT_LE(worst, 1) << height_m;
+    }
+}
+
 TEST_F(Seam, WideViewAgreesWithTheNarrowOnesInItsPlane) {
     // One image plane cut in three: all pixels of the narrow views exist in the wide one.
     const double plane = std::tan(60.0 * kDegree);

@@ -82,11 +82,14 @@ SKYIG_INLINE rvec3 encoded(rvec3 display, ToneParameters tone) {
     if (tone.encode_power < real(0.0)) return display;
     rvec3 sent = highlights(display - rvec3(tone.ambient), tone.shoulder);
     rvec3 v = clamp(sent, rvec3(real(0.0)), rvec3(real(1.0)));
-    if (tone.encode_power > real(0.0)) return pow(v, rvec3(tone.encode_power));
+    // Software GL computes both sides of a branch: one power serves either curve.
+    bool srgb = tone.encode_power == real(0.0);
+    real power = srgb ? real(1.0) / real(2.4) : tone.encode_power;
+    real scale = srgb ? real(1.055) : real(1.0);
+    real toe = srgb ? real(0.0031308) : real(0.0);
     rvec3 low = v * real(12.92);
-    rvec3 high = pow(max(v, rvec3(real(1e-6))), rvec3(real(1.0) / real(2.4))) * real(1.055) - rvec3(real(0.055));
-    return rvec3(v.x <= real(0.0031308) ? low.x : high.x, v.y <= real(0.0031308) ? low.y : high.y,
-                 v.z <= real(0.0031308) ? low.z : high.z);
+    rvec3 high = pow(max(v, rvec3(real(1e-9))), rvec3(power)) * scale - rvec3(scale - real(1.0));
+    return rvec3(v.x <= toe ? low.x : high.x, v.y <= toe ? low.y : high.y, v.z <= toe ? low.z : high.z);
 }
 
 SKYIG_INLINE rvec3 shown(rvec3 rgb_cd_m2, ToneParameters tone) { return encoded(display_linear(rgb_cd_m2, tone), tone); }

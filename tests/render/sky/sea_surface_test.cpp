@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <random>
 
 namespace skyig::render::sky {
 namespace {
@@ -75,14 +76,19 @@ double sent_back(const SeaSurface& sea, double source_deg, double azimuth_deg) {
     constexpr int kColumns = 180;
     double sum = 0.0;
     for (int i = 0; i < kRows; ++i) {
-        const double elevation = 0.5 * kPi * (i + 0.5) / kRows;
+        // Close together on the horizon.
+        const double root = (i + 0.5) / kRows;
+        const double elevation = 0.5 * kPi * root * root;
         double ring = 0.0;
         for (int j = 0; j < kColumns; ++j) {
-            const double relative_deg = 360.0 * (j + 0.5) / kColumns;
-            ring += sea.glitter_per_sr(std::sin(elevation), (azimuth_deg - relative_deg) * kDegree,
+            // And on the source's azimuth: the path of a low one is narrow.
+            const double half_turns = 2.0 * (j + 0.5) / kColumns - 1.0;
+            const double relative_deg = 180.0 * half_turns * std::abs(half_turns);
+            ring += 2.0 * std::abs(half_turns) *
+                    sea.glitter_per_sr(std::sin(elevation), (azimuth_deg - relative_deg) * kDegree,
                                        source_at(source_deg, relative_deg));
         }
-        sum += ring * std::sin(elevation) * std::cos(elevation);
+        sum += ring * std::sin(elevation) * std::cos(elevation) * 2.0 * root;
     }
     return sum * (0.5 * kPi / kRows) * (2.0 * kPi / kColumns) / std::sin(source_deg * kDegree);
 }
@@ -111,27 +117,68 @@ double mirrored(const SeaSurface& sea, double source_deg) {
     return sum / lit;
 }
 
-TEST(SeaSurface, GlitterSendsBackWhatFresnelSays) {
-    double worst_high = 0.0;
-    double most = 0.0;
-    double least = 2.0;
-    for (const double wind : {1.0, 5.0, 15.0}) {
-        const SeaSurface sea(slope_variance(windy(wind), {}));
-        for (const double source_deg : {10.0, 20.0, 45.0, 90.0}) {
-            const double back = sent_back(sea, source_deg, 0.0);
-            const double expected = mirrored(sea, source_deg);
-            std::printf("wind %4.1f sun %4.1f: glitter %.4f, facets %.4f, ratio %.3f\n", wind, source_deg,
-                        back, expected, back / expected);
-            if (source_deg > 80.0 || (source_deg > 30.0 && wind < 6.0))
-                worst_high = std::max(worst_high, std::abs(back / expected - 1.0));
-            most = std::max(most, back / expected);
-            least = std::min(least, back / expected);
-            EXPECT_LT(back, 1.0);
+// What leaves the same surface if light goes from wave to wave until it does: random walks between
+// uncorrelated Gaussian facets (Heitz, Hanika, d'Eon and Dachsbacher 2016). \return both, and by way of one
+// facet alone
+struct Walked {
+    double all = 0.0;
+    double single = 0.0;
+};
+Walked walked(double slope, double source_deg, int walks) {
+    std::mt19937 random{7};
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    std::normal_distribution<double> normal(0.0, slope);
+    const auto lambda_up = [slope](double up) {
+        const double nu = up / (std::sqrt(2.0) * slope * std::sqrt(std::max(1e-12, 1.0 - up * up)));
+        return nu > 6.0 ? 0.0 : 0.5 * (std::exp(-nu * nu) / (nu * std::sqrt(kPi)) - std::erfc(nu));
+    };
+    const auto lambda = [&](double up) { return up >= 0.0 ? lambda_up(up) : -1.0 - lambda_up(-up); };
+    Walked sum;
+    for (int i = 0; i < walks; ++i) {
+        glm::dvec3 way = -source_at(source_deg, 0.0);
+        double below = 1.0;  // share of the surface that lies lower
+        double energy = 1.0;
+        for (int bounce = 0; bounce < 12; ++bounce) {
+            const double l = lambda(way.z == 0.0 ? 1e-9 : way.z);
+            const double chance = 1.0 - unit(random);
+            if (way.z > 0.0 && (l < 1e-9 || chance < std::pow(below, l))) {
+                sum.all += energy / walks;
+                if (bounce == 1) sum.single += energy / walks;
+                break;
+            }
+            below = std::clamp(below / std::pow(chance, 1.0 / l), 1e-12, 1.0);
+            // A facet, in proportion to the area that it turns to the light.
+            const double most = std::max(0.0, -way.z) + 5.0 * slope * std::hypot(way.x, way.y);
+            glm::dvec3 across;
+            do {
+                across = {-normal(random), -normal(random), 1.0};
+            } while (-glm::dot(across, way) < unit(random) * most);
+            across = glm::normalize(across);
+            const double cosine = -glm::dot(across, way);
+            energy *= fresnel_reflectance(cosine);
+            way += 2.0 * cosine * across;
         }
     }
-    EXPECT_LT(worst_high, 0.01);
-    EXPECT_LT(most, 1.01);
-    EXPECT_GT(least, 0.65) << "what hits a second wave is lost";
+    return sum;
+}
+
+TEST(SeaSurface, GlitterSendsBackWhatLightThatGoesFromWaveToWaveDoes) {
+    double worst = 0.0;
+    for (const double wind : {1.0, 5.0, 15.0}) {
+        const double each = 0.5 * slope_variance(windy(wind), {}).total();
+        const SeaSurface sea(SlopeVariance{each, each, 0.0});
+        for (const double source_deg : {5.0, 10.0, 20.0, 45.0, 90.0}) {
+            const double back = sent_back(sea, source_deg, 0.0);
+            const Walked truth = walked(sea.facet_slope(), source_deg, 30000);
+            const double facets = mirrored(sea, source_deg);
+            std::printf(
+                "wind %4.1f sun %4.1f: glitter %.4f, walked %.4f (one wave %.4f, facets %.4f), ratio %.3f\n",
+                wind, source_deg, back, truth.all, truth.single, facets, back / truth.all);
+            worst = std::max(worst, std::abs(back / truth.all - 1.0));
+        }
+    }
+    std::printf("glitter's energy: off by at most %.3f\n", worst);
+    EXPECT_LT(worst, 0.05);
 }
 
 TEST(SeaSurface, MeanReflectanceOfFacetsIsThatOfADenseSum) {
