@@ -11,6 +11,7 @@
 #include "clients/skyig/decode_command.h"
 #include "clients/skyig/ephem/almanac.h"
 #include "clients/skyig/ephem/star_name.h"
+#include "clients/skyig/metar_command.h"
 #include "clients/skyig/options.h"
 #include "clients/skyig/sky_command.h"
 #include "clients/skyig/status/http_get.h"
@@ -25,8 +26,9 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> kVerbs{"host",   "shot",   "plan", "bench",  "ephem", "decode",
-                                                  "replay", "record", "sky",  "status", "top",   "tone"};
+constexpr std::array<std::string_view, 13> kVerbs{"host",   "shot",  "plan",   "bench",  "ephem",
+                                                  "decode", "metar", "replay", "record", "sky",
+                                                  "status", "top",   "tone"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -332,6 +334,7 @@ struct Verbs {
     BenchOptions bench;
     EphemOptions ephem;
     DecodeOptions decode;
+    MetarOptions metar;
     ReplayOptions replay;
     RecordOptions record;
     StatusOptions status;
@@ -352,6 +355,7 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
         *app.add_subcommand("ephem", "where Sun, Moon, planets and stars stand, and when things happen"),
         verbs.ephem, verbs.horizon);
     add_decode(app, verbs.decode);
+    add_metar(app, verbs.metar);
     add_replay(*app.add_subcommand("replay", "send the datagrams of a capture onto the network again"),
                verbs.replay);
     add_record(*app.add_subcommand("record", "write down what comes to UDP ports and over CAN buses"),
@@ -386,6 +390,7 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     if (app.got_subcommand("bench")) invocation.options = verbs.bench;
     if (app.got_subcommand("ephem")) invocation.options = verbs.ephem;
     if (app.got_subcommand("decode")) invocation.options = verbs.decode;
+    if (app.got_subcommand("metar")) invocation.options = verbs.metar;
     if (app.got_subcommand("replay")) invocation.options = verbs.replay;
     if (app.got_subcommand("record")) invocation.options = verbs.record;
     if (app.got_subcommand("status")) invocation.options = verbs.status;

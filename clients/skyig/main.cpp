@@ -8,6 +8,7 @@
 #include "clients/skyig/decode.h"
 #include "clients/skyig/ephem.h"
 #include "clients/skyig/host.h"
+#include "clients/skyig/metar.h"
 #include "clients/skyig/options.h"
 #include "clients/skyig/plan.h"
 #include "clients/skyig/record.h"
@@ -30,6 +31,7 @@ int run(int argc, char** argv) {
     if (const auto* bench = std::get_if<BenchOptions>(&invocation.options)) return run_bench(*bench);
     if (const auto* ephem = std::get_if<EphemOptions>(&invocation.options)) return run_ephem(*ephem);
     if (const auto* decode = std::get_if<DecodeOptions>(&invocation.options)) return run_decode(*decode);
+    if (const auto* metar = std::get_if<MetarOptions>(&invocation.options)) return run_metar(*metar);
     if (const auto* replay = std::get_if<ReplayOptions>(&invocation.options)) return run_replay(*replay);
     if (const auto* record = std::get_if<RecordOptions>(&invocation.options)) return run_record(*record);
     if (const auto* status = std::get_if<StatusOptions>(&invocation.options)) return run_status(*status);

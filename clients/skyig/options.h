@@ -129,6 +129,13 @@ struct DecodeOptions {
     bool json = false;
 };
 
+/// skyig metar: weather reports, as text or JSON.
+struct MetarOptions {
+    /// Reports, or the words of one; none, or "-" alone: lines of standard input.
+    std::vector<std::string> reports;
+    bool json = false;
+};
+
 /// skyig replay: a capture's datagrams onto the network.
 struct ReplayOptions {
     /// pcapng or pcap; "-" = standard input.
@@ -215,7 +222,8 @@ struct ToneOptions {
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
     std::variant<std::monostate, HostOptions, ShotOptions, PlanOptions, BenchOptions, EphemOptions,
-                 DecodeOptions, ReplayOptions, RecordOptions, SkyOptions, StatusOptions, ToneOptions>
+                 DecodeOptions, MetarOptions, ReplayOptions, RecordOptions, SkyOptions, StatusOptions,
+                 ToneOptions>
         options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)
