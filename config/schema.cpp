@@ -116,6 +116,7 @@ void read_eye(TableReader table, Eye& eye) {
     if (table.choice("operator", index, kToneNames) != nullptr) eye.tone = static_cast<ToneOperator>(index);
     table.number("adapt_up_s", eye.adapt_up_s, {0.0, 600.0, "s"});
     table.number("adapt_down_s", eye.adapt_down_s, {0.0, 600.0, "s"});
+    table.boolean("glare", eye.glare);
     table.finish();
 }
 

@@ -1,11 +1,15 @@
 #include "render/discs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "render/colour.h"
 #include "render/night/moon_light.h"
+#include "render/night/moon_map.h"
 
 namespace skyig::render {
 
@@ -13,6 +17,9 @@ namespace {
 
 // Linear limb darkening at red, green and blue (fits to Neckel and Labs 1994 near 610, 550 and 465 nm).
 const glm::vec3 kLimb{0.53F, 0.60F, 0.72F};
+
+// Of the map of the Moon's face: down to one texel.
+constexpr int kMapLevels = 10;
 
 // Reach of the corona, in radii of the Sun: as in sky/corona.frag.
 constexpr double kCoronaRadii = 8.0;
@@ -110,14 +117,29 @@ void Corona::prepare(const Scene& scene, const sky::AirTables& air, const SkyLig
 
 MoonDisc::MoonDisc()
     : pass_("night/moon.frag", true),
+      map_(gl::TexelFormat::kR32F, night::kMoonMapSize, night::kMoonMapSize, 0, kMapLevels),
       face_(pass_.program().uniform("u_full_cd_m2")),
       earthshine_(pass_.program().uniform("u_earthshine_cd_m2")),
+      lit_(pass_.program().uniform("u_lit_cd_m2")),
+      veil_(pass_.program().uniform("u_veil_cd_m2")),
       to_sun_(pass_.program().uniform("u_to_sun_disc")),
       shadow_axis_(pass_.program().uniform("u_shadow_axis_disc")),
-      shadow_radii_(pass_.program().uniform("u_shadow_radii")) {}
+      shadow_radii_(pass_.program().uniform("u_shadow_radii")),
+      selenographic_(pass_.program().uniform("u_selenographic_from_disc")),
+      map_level_(pass_.program().uniform("u_map_level")),
+      veil_own_(pass_.program().uniform("u_veil_own_cd_m2")),
+      fovea_factor_(pass_.program().uniform("u_fovea.log2_factor")),
+      fovea_slope_(pass_.program().uniform("u_fovea.slope")) {
+    std::vector<float> albedo;
+    albedo.reserve(night::moon_map().size());
+    for (const std::uint8_t texel : night::moon_map())
+        albedo.push_back(static_cast<float>(texel / night::kMoonMapOne));
+    map_.update(albedo);
+}
 
 void MoonDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
-                       const shaders32::ToneParameters& tone, bool dither) {
+                       const shaders32::ToneParameters& tone, bool dither, const shaders64::Fovea& fovea,
+                       const Glare::Limb& veil) {
     const Moon& moon = scene.moon;
     DiscFrame frame = disc_frame(moon.direction_enu, moon.angular_radius_rad, pixel_rad, light);
     for (std::size_t row = 0; row < DiscFrame::kRows; ++row) {
@@ -125,17 +147,30 @@ void MoonDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyL
             row, glm::vec3{air.transmittance_rgb(light.eye_height_m, frame.straight_elevation_rad[row])});
     }
     pass_.prepare(frame, tone, dither);
-    const auto in_disc = [&frame](const glm::dvec3& enu) {
-        const glm::vec3 v{enu};
-        return glm::vec3{glm::dot(v, frame.right_enu), glm::dot(v, frame.true_up_enu),
-                         -glm::dot(v, frame.true_centre_enu)};
-    };
+    const glm::mat3 enu_from_disc{frame.right_enu, frame.true_up_enu, -frame.true_centre_enu};
+    const glm::mat3 disc_from_enu = glm::transpose(enu_from_disc);
+    const double sun_au = scene.sun.distance_au;
     const gl::Program& program = pass_.program();
-    program.set(face_, glm::vec3{night::moon_tint_rgb() * night::moon_face_cd_m2(moon)});
-    program.set(earthshine_, glm::vec3{static_cast<float>(night::earthshine_cd_m2(moon.phase_angle_rad))});
-    program.set(to_sun_, in_disc(moon.to_sun_enu));
-    program.set(shadow_axis_, in_disc(moon.shadow_axis_enu));
+    program.set(face_, glm::vec3{night::moon_tint_rgb() * night::moon_face_cd_m2(moon, sun_au)});
+    program.set(earthshine_,
+                glm::vec3{night::earthshine_tint_rgb() * night::earthshine_cd_m2(moon.phase_angle_rad)});
+    program.set(lit_, static_cast<float>(night::moon_lit_cd_m2(moon, sun_au)));
+    program.set(veil_, veil.rgb_cd_m2);
+    program.set(veil_own_, veil.own_cd_m2);
+    program.set(to_sun_, disc_from_enu * glm::vec3{moon.to_sun_enu});
+    program.set(shadow_axis_, disc_from_enu * glm::vec3{moon.shadow_axis_enu});
     program.set(shadow_radii_, glm::vec2{glm::dvec2{moon.umbra_radius, moon.penumbra_radius}});
+    program.set(selenographic_, glm::transpose(glm::mat3{moon.enu_from_selenographic}) * enu_from_disc);
+    const double texel_radii = 2.0 * shaders64::kMoonMapReach / night::kMoonMapSize;
+    const double pixel_radii = pixel_rad / moon.angular_radius_rad;
+    program.set(map_level_, static_cast<float>(std::max(0.0, std::log2(pixel_radii / texel_radii))));
+    program.set(fovea_factor_, static_cast<float>(fovea.log2_factor));
+    program.set(fovea_slope_, static_cast<float>(fovea.slope));
+}
+
+void MoonDisc::draw(const glm::mat4& clip_from_enu) const {
+    gl::bind_texture(0, map_.name());
+    pass_.draw(clip_from_enu);
 }
 
 }  // namespace skyig::render

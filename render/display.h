@@ -19,6 +19,8 @@ struct DisplaySettings {
     /// Time constants of adaptation towards brighter and darker scenes, seconds of scene time.
     double adapt_up_s = 0.5;
     double adapt_down_s = 5.0;
+    /// The veil that the eye's own media lay round Sun and Moon.
+    bool glare = true;
 };
 
 }  // namespace skyig::render

@@ -208,7 +208,7 @@ SkyLight LightTables::light(const Scene& scene, const Plan& plan,
     }
     if (plan.moon_share > 0.0 && moon_.front_made.air != 0) {
         const double share = plan.moon_share * std::max(scene.moon.sunlit, kFromUmbra) *
-                             night::moon_illuminance_lux(scene.moon.phase_angle_rad, scene.moon.distance_km) /
+                             night::moon_illuminance_lux(scene.moon, scene.sun.distance_au) /
                              sunlight_lux(air_->model());
         light.moon = {&moon_.front, horizontal_of(scene.moon.direction_enu),
                       glm::vec3{night::moon_tint_xyz() * share}, reflected(moon_)};

@@ -5,6 +5,7 @@
 
 #include "render/dome_bend.h"
 #include "render/geometry.h"
+#include "render/glare.h"
 #include "render/sky/staleness.h"
 
 namespace skyig::render {
@@ -77,6 +78,8 @@ Cost cost_of(Pass pass) {
         case Pass::kCorona:
         case Pass::kSunDisc:
         case Pass::kMoonDisc:
+        case Pass::kSunGlare:
+        case Pass::kMoonGlare:
             break;
     }
     return Cost::kChannel;
@@ -123,7 +126,8 @@ void plan_skies(Plan& plan, const Scene& scene, const Held& held, double sun_rad
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables", "sun sky", "moon sky", "dome", "stars", "corona", "sun disc", "moon disc"};
+        "air tables", "sun sky",  "moon sky",  "dome",      "stars",
+        "corona",     "sun disc", "moon disc", "sun glare", "moon glare"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -179,6 +183,8 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kSunDisc, plan_disc(scene.sun.enabled, sun_rad, sun_radius_rad, sets_at_rad));
     put(plan, Pass::kMoonDisc,
         plan_disc(scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad, sets_at_rad));
+    for (const Pass pass : {Pass::kSunGlare, Pass::kMoonGlare})
+        put(plan, pass, {false, "not decided yet"});
     return plan;
 }
 
@@ -189,6 +195,18 @@ DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& qu
     return {std::clamp(held.columns, least.columns, ample.columns),
             std::clamp(held.sky_rows, least.sky_rows, ample.sky_rows),
             std::clamp(held.ground_rows, least.ground_rows, ample.ground_rows)};
+}
+
+void plan_glare(Plan& plan, Pass pass, bool enabled, double reach_rad) noexcept {
+    if (!enabled) {
+        put(plan, pass, {false, "switched off"});
+    } else if (reach_rad <= 0.0) {
+        put(plan, pass, {false, "adds less than half a code to the sky"});
+    } else {
+        put(plan, pass, {true, "the eye spreads the disc's light"});
+    }
+    plan.passes[static_cast<std::size_t>(pass)].resolution = {static_cast<int>(Glare::kRings),
+                                                              static_cast<int>(Glare::kSectors)};
 }
 
 void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept {

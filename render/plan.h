@@ -82,8 +82,8 @@ struct Plan {
 [[nodiscard]] double direction_table_error_codes(const sky::SkyViewSize& size) noexcept;
 
 /// \param scene  the frame; \param held  what is in the tables; \param refraction  of the frame's eye and
-/// air. Deterministic: equal input gives an equal plan. Dome and stars are left for plan_dome() and
-/// plan_stars(), which need the light that this plan leads to.
+/// air. Deterministic: equal input gives an equal plan. Dome, stars and glare are left for
+/// plan_dome(), plan_stars() and plan_glare(), which need the light that this plan leads to.
 [[nodiscard]] Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction,
                              const Quality& quality = {}) noexcept;
 
@@ -94,6 +94,10 @@ struct Plan {
 /// Decides on the stars and planets. \param background_cd_m2  the darkest sky that they stand before
 /// \param half_code_mag  fainter ones change no picture
 void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept;
+
+/// Decides on the glare of Sun or Moon. \param reach_rad  Glare::reach_rad(). A pass without a reach has
+/// nothing to draw even where it is forced.
+void plan_glare(Plan& plan, Pass pass, bool enabled, double reach_rad) noexcept;
 
 /// Faintest star that a practised eye sees before a background, V magnitude (Schaefer 1990, after Knoll et
 /// al. 1946).

@@ -11,6 +11,7 @@
 #include "render/gl/framebuffer.h"
 #include "render/gl/mesh.h"
 #include "render/gl/program.h"
+#include "render/glare_pass.h"
 #include "render/sky_frame.h"
 #include "render/star_field.h"
 
@@ -93,6 +94,7 @@ struct Renderer::Impl {
 
     void upload_dome();
     void prepare_points_and_discs();
+    void prepare_moon();
     void draw_dome(const Channel& channel, const glm::dmat4& clip_from_enu);
     void refresh_deferred();
 
@@ -111,6 +113,8 @@ struct Renderer::Impl {
     Corona corona;
     SunDisc sun_disc;
     MoonDisc moon_disc;
+    GlarePass sun_glare;
+    GlarePass moon_glare;
     std::unique_ptr<DeferredPass> deferred;  // once a scene is drawn
 
     // The frame in hand.
@@ -143,8 +147,15 @@ void Renderer::Impl::prepare_points_and_discs() {
         corona.prepare(scene, frame.air(), frame.light(), pixel_rad, tone32, plan.corona_share);
     if (plan.needs(Pass::kSunDisc))
         sun_disc.prepare(scene, frame.air(), frame.light(), pixel_rad, tone32, display.dither);
-    if (plan.needs(Pass::kMoonDisc))
-        moon_disc.prepare(scene, frame.air(), frame.light(), pixel_rad, tone32, display.dither);
+    if (plan.needs(Pass::kMoonDisc)) prepare_moon();
+    if (plan.needs(Pass::kSunGlare)) sun_glare.prepare(frame.sun_glare(), pixel_rad, display.dither);
+    if (plan.needs(Pass::kMoonGlare)) moon_glare.prepare(frame.moon_glare(), pixel_rad, display.dither);
+}
+
+void Renderer::Impl::prepare_moon() {
+    moon_disc.prepare(scene, frame.air(), frame.light(), pixel_rad, eye::single_precision(frame.tone()),
+                      display.dither, moon_fovea(scene, frame.air(), frame.light(), display, frame.tone()),
+                      frame.moon_glare().limb());
 }
 
 void Renderer::Impl::draw_dome(const Channel& channel, const glm::dmat4& clip_from_enu) {
@@ -208,9 +219,18 @@ void Renderer::draw(std::size_t channel) {
         gl::set_blend(gl::Blend::kAdd);
         m.corona.draw(glm::mat4{clip_from_enu});
     }
+    if (plan.needs(Pass::kMoonGlare)) {
+        gl::set_blend(gl::Blend::kAdd);
+        m.moon_glare.draw(glm::mat4{clip_from_enu});
+    }
     gl::set_blend(gl::Blend::kCoverage);
     if (plan.needs(Pass::kSunDisc)) m.sun_disc.draw(glm::mat4{clip_from_enu});
     if (plan.needs(Pass::kMoonDisc)) m.moon_disc.draw(glm::mat4{clip_from_enu});
+    if (plan.needs(Pass::kSunGlare)) {
+        // Over the Moon too, when it stands before the Sun.
+        gl::set_blend(gl::Blend::kAdd);
+        m.sun_glare.draw_around(glm::mat4{clip_from_enu});
+    }
     gl::finish();
 }
 

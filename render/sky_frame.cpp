@@ -37,6 +37,7 @@ void SkyFrame::prepare(const Scene& scene, double pixel_rad) {
     tables_.update(scene, plan_);
     light_ = tables_.light(scene, plan_, refraction);
     adapt(scene, pixel_rad);
+    dazzle(scene);
     refresh_dome(pixel_rad);
     tell_dome();
 }
@@ -56,6 +57,13 @@ void SkyFrame::adapt(const Scene& scene, double pixel_rad) {
         adaptation_.update(eye::adaptation_target_cd_m2(luminance), scene.time_s, tables_.jumped(), display_);
     tone_ = eye::tone_parameters(display_, now_cd_m2);
     plan_stars(plan_, scene, darkest_sky, half_code_mag(darkest_sky, tone_, pixel_rad));
+}
+
+void SkyFrame::dazzle(const Scene& scene) {
+    sun_glare_.update(render::sun_glare(scene, tables_.air(), light_), light_, display_, tone_);
+    moon_glare_.update(render::moon_glare(scene, tables_.air(), light_), light_, display_, tone_);
+    plan_glare(plan_, Pass::kSunGlare, display_.glare && scene.sun.enabled, sun_glare_.reach_rad());
+    plan_glare(plan_, Pass::kMoonGlare, display_.glare && scene.moon.enabled, moon_glare_.reach_rad());
 }
 
 void SkyFrame::refresh_dome(double pixel_rad) {

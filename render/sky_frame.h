@@ -6,6 +6,7 @@
 #include "render/display.h"
 #include "render/dome.h"
 #include "render/eye/adaptation.h"
+#include "render/glare.h"
 #include "render/light_tables.h"
 #include "render/plan.h"
 #include "render/scene.h"
@@ -29,6 +30,8 @@ class SkyFrame {
     [[nodiscard]] double adaptation_cd_m2() const noexcept { return adaptation_.luminance_cd_m2(); }
     [[nodiscard]] const sky::AirTables& air() const noexcept { return tables_.air(); }
     [[nodiscard]] const LightTables& tables() const noexcept { return tables_; }
+    [[nodiscard]] const Glare& sun_glare() const noexcept { return sun_glare_; }
+    [[nodiscard]] const Glare& moon_glare() const noexcept { return moon_glare_; }
     [[nodiscard]] Dome& dome() noexcept { return dome_; }
     [[nodiscard]] const Dome& dome() const noexcept { return dome_; }
     /// From the dome's mesh, (direction, 1), to the scene.
@@ -45,6 +48,7 @@ class SkyFrame {
 
   private:
     void adapt(const Scene& scene, double pixel_rad);
+    void dazzle(const Scene& scene);
     void refresh_dome(double pixel_rad);
     void tell_dome() noexcept;
 
@@ -52,6 +56,8 @@ class SkyFrame {
     Quality quality_;
     LightTables tables_;
     eye::Adaptation adaptation_;
+    Glare sun_glare_;
+    Glare moon_glare_;
     DomeBend bend_;
     Dome dome_;
 

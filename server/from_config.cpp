@@ -130,6 +130,7 @@ render::DisplaySettings display_settings(const config::Config& config) {
                                                                      : render::ToneOperator::kHybrid;
     settings.adapt_up_s = config.eye.adapt_up_s;
     settings.adapt_down_s = config.eye.adapt_down_s;
+    settings.glare = config.eye.glare;
     return settings;
 }
 

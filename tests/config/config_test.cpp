@@ -118,6 +118,7 @@ error_codes = 1.5
 operator = "linear"
 adapt_up_s = 1
 adapt_down_s = 20
+glare = false
 [output]
 kind = "headless"
 [[channel]]
@@ -167,6 +168,7 @@ group_id = 3
     EXPECT_FALSE(c.display.dither);
     EXPECT_EQ(c.eye.tone, ToneOperator::kLinear);
     EXPECT_EQ(c.eye.adapt_down_s, 20.0);
+    EXPECT_FALSE(c.eye.glare);
     ASSERT_EQ(c.channels.size(), 1U);
     EXPECT_EQ(c.channels[0].offset_m, (std::array{1.0, -0.5, 2.0}));
     EXPECT_EQ(c.channels[0].bottom_deg, 1.0);
