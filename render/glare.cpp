@@ -73,15 +73,13 @@ struct Glare::Veiled {
         const double fade = (1.0 - share * share) * (1.0 - share * share);
         return veil * (kEyeBesideDisc * fade * eye::looked_at_cd_m2(display, tone, own) / own);
     }
-    [[nodiscard]] double photopic(double own_cd_m2) const {
-        return std::max(tone.photopic, shaders64::photopic_share(own_cd_m2));
-    }
     [[nodiscard]] glm::vec3 added(const glm::dvec3& background, double angle_rad) const {
         const glm::dvec3 veil = rgb_lux * veil_per_lux(angle_rad);
-        shaders64::ToneParameters seen = tone;
-        seen.photopic = photopic(luminance(background + veil));
-        const glm::dvec3 with = shaders64::shown(background + as_shown(background, veil, angle_rad), seen);
-        return glm::vec3{glm::max(with - shaders64::shown(background, tone), glm::dvec3{0.0})};
+        const double photopic = shaders64::photopic_share(luminance(background + veil));
+        const glm::dvec3 with =
+            shaders64::seen_before(as_shown(background, veil, angle_rad), photopic, background, tone);
+        return glm::vec3{
+            glm::max(shaders64::encoded(with, tone) - shaders64::shown(background, tone), glm::dvec3{0.0})};
     }
 };
 

@@ -1,5 +1,5 @@
 // What is small and looked at, the Moon's face above all, falls on the middle of the eye: it has no rods, and its cones
-// adapt to what they get there, not to the night around. One text for GLSL and C++; the numbers of a frame come from
+// adapt to what they get there, not to the night around. One text for GLSL and C++, after eye/tone.glsl; the numbers of a frame come from
 // render/eye/fovea.h.
 
 // How much light the fovea takes of something: a factor that never rises above 1, a power of the luminance that it is
@@ -31,4 +31,12 @@ SKYIG_INLINE rvec3 beside_veil(rvec3 light, rvec3 veil, real share) {
     real x = a / sum;
     real y = b / sum;
     return (light + veiled) * sqrt(sqrt(x * x * x * x + y * y * y * y));
+}
+
+// Display linear of a light before a sky, where the light is seen with another share of cones than the sky.
+SKYIG_INLINE rvec3 seen_before(rvec3 light, real photopic, rvec3 sky, ToneParameters tone) {
+    if (photopic <= tone.photopic) return display_linear(sky + light, tone);
+    ToneParameters seen = tone;
+    seen.photopic = photopic;
+    return max(display_linear(sky, tone) + display_linear(sky + light, seen) - display_linear(sky, seen), rvec3(real(0.0)));
 }

@@ -44,10 +44,10 @@ void main() {
     vec3 light = v_light * face * albedo(normal);
     vec3 sky = sky_behind();
     float own = luminance_709(light);
-    ToneParameters tone = u_tone;
     float seen_by_fovea = foveal_share(own) * own / (own + max(luminance_709(sky), 1e-9));
-    tone.photopic = max(max(tone.photopic, photopic_share(u_veil_own_cd_m2)), seen_by_fovea);
+    float photopic = max(photopic_share(u_veil_own_cd_m2), seen_by_fovea);
     light *= foveal_factor(u_fovea, u_lit_cd_m2 * luminance_709(v_light * sunlight));
-    vec3 display = shown(sky + beside_veil(light, u_veil_cd_m2, own / (own + max(u_veil_own_cd_m2, 1e-9))), tone);
+    light = beside_veil(light, u_veil_cd_m2, own / (own + max(u_veil_own_cd_m2, 1e-9)));
+    vec3 display = encoded(seen_before(light, photopic, sky, u_tone), u_tone);
     o_colour = vec4(dithered(display, dot(gl_FragCoord.xy, kDitherStep)), disc_coverage());
 }
