@@ -24,6 +24,42 @@ constexpr int kMapLevels = 10;
 // Reach of the corona, in radii of the Sun: as in sky/corona.frag.
 constexpr double kCoronaRadii = 8.0;
 
+// What a disc of limb darkening adds up to when its edge is softened over `pixel_radii`, by the sum of the
+// sharp one: a few percent less where a disc has few pixels, since it is the bright side of the edge that
+// loses.
+glm::vec3 softened_sum(float pixel_radii) {
+    constexpr int kSteps = 64;
+    const float reach = 1.0F + 0.5F * pixel_radii;
+    glm::vec3 sum{0.0F};
+    for (int i = 0; i < kSteps; ++i) {
+        const float rho = (static_cast<float>(i) + 0.5F) / kSteps * reach;
+        const float inside = std::min(rho, 1.0F);
+        const float cosine = std::sqrt(1.0F - inside * inside);
+        const float coverage = std::clamp((1.0F - rho) / pixel_radii + 0.5F, 0.0F, 1.0F);
+        sum += (glm::vec3{1.0F} - kLimb * (1.0F - cosine)) * (coverage * rho);
+    }
+    return sum * (2.0F * reach / kSteps) / (glm::vec3{1.0F} - kLimb / 3.0F);
+}
+
+// The same for the Moon, whose lit limb is its brightest part: what its face adds up to with a softened edge,
+// by the sum of the sharp one. \param to_sun_disc  right, up, towards the eye
+float softened_moon_sum(float pixel_radii, const glm::vec3& to_sun_disc) {
+    constexpr int kSteps = 32;
+    const float reach = 1.0F + 0.5F * pixel_radii;
+    float sharp = 1e-4F;
+    float soft = 1e-4F;
+    for (int i = 0; i < kSteps * kSteps; ++i) {
+        const glm::vec2 xy = (glm::vec2{i / kSteps, i % kSteps} * 2.0F + 1.0F) * (reach / kSteps) - reach;
+        const float rho = glm::length(xy);
+        const float coverage = std::clamp((1.0F - rho) / pixel_radii + 0.5F, 0.0F, 1.0F);
+        const glm::vec3 normal{xy.x, xy.y, std::sqrt(1.0F - std::min(rho * rho, 1.0F))};
+        const float light = shaders32::lommel_seeliger(glm::dot(normal, to_sun_disc), normal.z);
+        soft += light * coverage;
+        if (rho < 1.0F) sharp += light;
+    }
+    return soft / sharp;
+}
+
 // Rows over the Sun whose light is the mean luminance of its disc.
 DiscFrame sunlit_frame(const Sun& sun, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
                        double reach_radii) {
@@ -102,7 +138,10 @@ SunDisc::SunDisc() : pass_("sky/sun.frag", true), limb_(pass_.program().uniform(
 
 void SunDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
                       const shaders32::ToneParameters& tone, bool dither) {
-    const DiscFrame frame = sunlit_frame(scene.sun, air, light, pixel_rad, 1.0);
+    DiscFrame frame = sunlit_frame(scene.sun, air, light, pixel_rad, 1.0);
+    const glm::vec3 kept = softened_sum(static_cast<float>(pixel_rad / scene.sun.angular_radius_rad));
+    for (DiscVertex& vertex : frame.vertices)
+        vertex.light /= kept;
     pass_.prepare(frame, tone, dither);
     pass_.program().set(limb_, kLimb);
 }
@@ -151,18 +190,22 @@ void MoonDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyL
     const glm::mat3 disc_from_enu = glm::transpose(enu_from_disc);
     const double sun_au = scene.sun.distance_au;
     const gl::Program& program = pass_.program();
-    program.set(face_, glm::vec3{night::moon_tint_rgb() * night::moon_face_cd_m2(moon, sun_au)});
+    const glm::vec3 to_sun_disc = disc_from_enu * glm::vec3{moon.to_sun_enu};
+    const double pixel_radii = pixel_rad / moon.angular_radius_rad;
+    const double face_cd_m2 =
+        night::moon_face_cd_m2(moon, sun_au) /
+        static_cast<double>(softened_moon_sum(static_cast<float>(pixel_radii), to_sun_disc));
+    program.set(face_, glm::vec3{night::moon_tint_rgb() * face_cd_m2});
     program.set(earthshine_,
                 glm::vec3{night::earthshine_tint_rgb() * night::earthshine_cd_m2(moon.phase_angle_rad)});
     program.set(lit_, static_cast<float>(night::moon_lit_cd_m2(moon, sun_au)));
     program.set(veil_, veil.rgb_cd_m2);
     program.set(veil_own_, veil.own_cd_m2);
-    program.set(to_sun_, disc_from_enu * glm::vec3{moon.to_sun_enu});
+    program.set(to_sun_, to_sun_disc);
     program.set(shadow_axis_, disc_from_enu * glm::vec3{moon.shadow_axis_enu});
     program.set(shadow_radii_, glm::vec2{glm::dvec2{moon.umbra_radius, moon.penumbra_radius}});
     program.set(selenographic_, glm::transpose(glm::mat3{moon.enu_from_selenographic}) * enu_from_disc);
     const double texel_radii = 2.0 * shaders64::kMoonMapReach / night::kMoonMapSize;
-    const double pixel_radii = pixel_rad / moon.angular_radius_rad;
     program.set(map_level_, static_cast<float>(std::max(0.0, std::log2(pixel_radii / texel_radii))));
     program.set(fovea_factor_, static_cast<float>(fovea.log2_factor));
     program.set(fovea_slope_, static_cast<float>(fovea.slope));

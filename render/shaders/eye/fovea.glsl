@@ -24,13 +24,15 @@ SKYIG_INLINE real foveal_share(real luminance) {
 // ends where the light is the brighter. `share`: of the light in the sum of both, before any adaptation.
 SKYIG_INLINE rvec3 beside_veil(rvec3 light, rvec3 veil, real share) {
     rvec3 veiled = veil * (real(1.0) + share);
-    real a = real(0.2126) * light.x + real(0.7152) * light.y + real(0.0722) * light.z;
-    real b = real(0.2126) * veiled.x + real(0.7152) * veiled.y + real(0.0722) * veiled.z;
+    real a = luminance_709(light);
+    real b = luminance_709(veiled);
     real sum = a + b;
-    if (!(sum > real(0.0))) return light;
-    real x = a / sum;
-    real y = b / sum;
-    return (light + veiled) * sqrt(sqrt(x * x * x * x + y * y * y * y));
+    if (!(sum > real(0.0)) || !(min(a, b) > real(0.0))) return light + veiled;
+    real x = a / sum * (a / sum);
+    real y = b / sum * (b / sum);
+    real fourth = x * x + y * y;
+    // Each with its own colour, as much as it counts.
+    return (light * (x * x / a) + veiled * (y * y / b)) * (sum * sqrt(sqrt(fourth)) / fourth);
 }
 
 // Display linear of a light before a sky, where the light is seen with another share of cones than the sky.

@@ -45,9 +45,11 @@ void main() {
     vec3 sky = sky_behind();
     float own = luminance_709(light);
     float seen_by_fovea = foveal_share(own) * own / (own + max(luminance_709(sky), 1e-9));
-    float photopic = max(photopic_share(u_veil_own_cd_m2), seen_by_fovea);
     light *= foveal_factor(u_fovea, u_lit_cd_m2 * luminance_709(v_light * sunlight));
-    light = beside_veil(light, u_veil_cd_m2, own / (own + max(u_veil_own_cd_m2, 1e-9)));
+    // Who looks at the part in the Earth's shadow keeps the bright rest away from the middle of the eye.
+    float veil_own = max(u_veil_own_cd_m2 * sun.direct, 1e-9);
+    light = beside_veil(light, u_veil_cd_m2 * sun.direct, own / (own + veil_own));
+    float photopic = max(photopic_share(veil_own), seen_by_fovea);
     vec3 display = encoded(seen_before(light, photopic, sky, u_tone), u_tone);
     o_colour = vec4(dithered(display, dot(gl_FragCoord.xy, kDitherStep)), disc_coverage());
 }
