@@ -126,9 +126,10 @@ struct Reference {
         const glm::dvec3 own = face * albedo * passed;
         const double behind = shaders64::luminance_709(sky(direction));
         const double share = shaders64::luminance_709(own) / (shaders64::luminance_709(own) + behind);
-        const double photopic = std::max(shaders64::photopic_share(behind),
-                                         shaders64::foveal_share(shaders64::luminance_709(own)) * share);
-        return shaders64::seen_before(own * dimmed, photopic, sky(direction), tone);
+        shaders64::ToneParameters fovea_tone = tone;
+        fovea_tone.photopic =
+            std::max(tone.photopic, shaders64::foveal_share(shaders64::luminance_709(own)) * share);
+        return shaders64::display_linear(own * dimmed + sky(direction), fovea_tone);
     }
 
     Scene scene;
@@ -185,11 +186,6 @@ class DiscReference : public GlTest {
     }
 
   private:
-    static DisplaySettings without_glare() {
-        DisplaySettings display = undithered();
-        display.glare = false;
-        return display;
-    }
     // One air for all scenes of a test: its tables are the costly part.
     Renderer renderer_{{{"only", kSize, kSize}}, without_glare()};
     LightTables tables_;

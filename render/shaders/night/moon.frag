@@ -44,12 +44,12 @@ void main() {
     vec3 light = v_light * face * albedo(normal);
     vec3 sky = sky_behind();
     float own = luminance_709(light);
-    float seen_by_fovea = foveal_share(own) * own / (own + max(luminance_709(sky), 1e-9));
+    ToneParameters tone = u_tone;
+    tone.photopic = max(tone.photopic, foveal_share(own) * own / (own + max(luminance_709(sky), 1e-9)));
     light *= foveal_factor(u_fovea, u_lit_cd_m2 * luminance_709(v_light * sunlight));
     // Who looks at the part in the Earth's shadow keeps the bright rest away from the middle of the eye.
     float veil_own = max(u_veil_own_cd_m2 * sun.direct, 1e-9);
     light = beside_veil(light, u_veil_cd_m2 * sun.direct, own / (own + veil_own));
-    float photopic = max(photopic_share(veil_own), seen_by_fovea);
-    vec3 display = encoded(seen_before(light, photopic, sky, u_tone), u_tone);
+    vec3 display = encoded(seen_before(light, photopic_share(veil_own), sky, tone), tone);
     o_colour = vec4(dithered(display, dot(gl_FragCoord.xy, kDitherStep)), disc_coverage());
 }
