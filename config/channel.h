@@ -3,7 +3,10 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
+
+#include "config/screen.h"
 
 namespace skyig::config {
 
@@ -39,6 +42,8 @@ struct Channel {
     int view_id = 1;
     /// 0 = in no group, 1..255.
     int group_id = 0;
+    /// Its own, what it leaves out taken from [display]; not given: that of [display].
+    std::optional<Screen> display;
 };
 
 }  // namespace skyig::config

@@ -39,7 +39,15 @@ void read_sides(TableReader& table, std::string_view low_key, double& low_deg, s
     }
 }
 
-ChannelPlaces read_channel(TableReader& table, Channel& channel) {
+void read_own_screen(TableReader& table, const Screen& usual, Channel& channel) {
+    if (table.any("display") == nullptr) return;
+    TableReader own = table.table("display");
+    channel.display = usual;
+    read_screen(own, *channel.display);
+    own.finish();
+}
+
+ChannelPlaces read_channel(TableReader& table, const Screen& usual, Channel& channel) {
     ChannelPlaces places;
     places.name = places.view_id = places.offset = table.place();
     if (const Value* value = table.text("name", channel.name); value != nullptr) {
@@ -67,6 +75,7 @@ ChannelPlaces read_channel(TableReader& table, Channel& channel) {
         places.view_id = value->place;
     }
     table.integer("group_id", channel.group_id, 0, 255);
+    read_own_screen(table, usual, channel);
     table.finish();
     return places;
 }
@@ -113,7 +122,8 @@ void compare(ErrorList& errors, const std::vector<Channel>& channels,
 
 }  // namespace
 
-void read_channels(TableReader& root, ErrorList& errors, std::vector<Channel>& channels) {
+void read_channels(TableReader& root, ErrorList& errors, const Screen& usual,
+                   std::vector<Channel>& channels) {
     const Value* value = root.any("channel");
     if (value == nullptr) {
         errors.add({}, "channel",
@@ -140,7 +150,7 @@ void read_channels(TableReader& root, ErrorList& errors, std::vector<Channel>& c
         Channel& channel = channels.emplace_back();
         channel.view_id = static_cast<int>(number);
         TableReader reader(errors, table, item.place, fmt::format("channel[{}]", number));
-        places.push_back(table == nullptr ? ChannelPlaces{} : read_channel(reader, channel));
+        places.push_back(table == nullptr ? ChannelPlaces{} : read_channel(reader, usual, channel));
     }
     compare(errors, channels, places);
 }

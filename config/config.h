@@ -9,6 +9,7 @@
 
 #include "config/channel.h"
 #include "config/host.h"
+#include "config/screen.h"
 #include "config/sky.h"
 #include "config/source.h"
 
@@ -83,13 +84,8 @@ struct Ephemeris {
     std::string earth_orientation;
 };
 
-struct Display {
-    /// Luminance of full white on the screen, 1..10000.
-    double max_luminance_cd_m2 = 350.0;
-    /// What the eyes in front of the screen are adapted to; if not given, half of full white.
-    double adaptation_cd_m2 = 175.0;
-    /// Exponent of the display's response; empty ("srgb" in the file): the sRGB curve. 1..3.
-    std::optional<double> gamma;
+/// The screen of all channels that have none of their own.
+struct Display : Screen {
     bool dither = true;
 };
 
@@ -101,13 +97,26 @@ struct Quality {
     std::optional<double> error_pct;
 };
 
-/// "hybrid" (Tumblin-Rushmeier by day, threshold matching by night), "linear" (measurements).
-enum class ToneOperator { kHybrid, kLinear };
+/// "hybrid" (Tumblin-Rushmeier by day, threshold matching by night) and what stands beside it.
+enum class ToneOperator { kHybrid, kTumblin, kTumblinSafe, kReinhard, kWard, kLinear };
+
+/// "sky", "view", "view-mean"; "cockpit", "physiological".
+enum class AdaptationSource { kSky, kView, kViewMean };
+enum class AdaptationPace { kCockpit, kPhysiological };
 
 struct Eye {
     /// Key "operator".
     ToneOperator tone = ToneOperator::kHybrid;
-    /// Time constants of adaptation to brighter and to darker light, 0..600; 0 = at once.
+    /// Of hybrid by day, decades, 0..2.
+    double highlight_room = 0.45;
+    /// Parts of full white, 0.1..1; 1 = none.
+    double shoulder = 0.7;
+    bool night_colours = true;
+    AdaptationSource adapt_to = AdaptationSource::kSky;
+    /// 1e-6..1e6: the eye is adapted to this always; not given: to what it sees.
+    std::optional<double> adaptation_cd_m2;
+    AdaptationPace pace = AdaptationPace::kCockpit;
+    /// Time constants of the cockpit's pace to brighter and to darker light, 0..600; 0 = at once.
     double adapt_up_s = 0.5;
     double adapt_down_s = 5.0;
     /// The veil that the eye lays round Sun and Moon.

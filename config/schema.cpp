@@ -7,7 +7,6 @@
 namespace skyig::config {
 namespace {
 
-constexpr std::array<std::string_view, 2> kToneNames{"hybrid", "linear"};
 constexpr std::array<std::string_view, 3> kModelNames{"almanac", "erfa", "series"};
 constexpr std::array<std::string_view, 2> kSurfaceNames{"land", "sea"};
 constexpr std::array<std::string_view, 1> kOutputNames{"headless"};
@@ -75,32 +74,6 @@ void read_ephemeris(TableReader table, Ephemeris& ephemeris) {
     table.finish();
 }
 
-void read_gamma(TableReader& table, std::optional<double>& gamma) {
-    const Value* value = table.any("gamma");
-    if (value == nullptr) return;
-    const auto* text = std::get_if<std::string>(&value->data);
-    double number = 0.0;
-    if (text != nullptr && *text == "srgb") {
-        gamma.reset();
-    } else if (as_number(*value, number) && number >= 1.0 && number <= 3.0) {
-        gamma = number;
-    } else {
-        const std::string read = text != nullptr             ? fmt::format("\"{}\"", *text)
-                                 : as_number(*value, number) ? fmt::format("{}", number)
-                                                             : std::string(type_name(*value));
-        table.error(*value, "gamma", fmt::format("is {}; it must be \"srgb\" or a number 1..3", read));
-    }
-}
-
-void read_display(TableReader table, Display& display) {
-    table.number("max_luminance_cd_m2", display.max_luminance_cd_m2, {1.0, 10'000.0, "cd/m2"});
-    display.adaptation_cd_m2 = 0.5 * display.max_luminance_cd_m2;
-    table.number("adaptation_cd_m2", display.adaptation_cd_m2, {0.1, 10'000.0, "cd/m2"});
-    read_gamma(table, display.gamma);
-    table.boolean("dither", display.dither);
-    table.finish();
-}
-
 void read_quality(TableReader table, Quality& quality) {
     const Value* codes = table.number("error_codes", quality.error_codes, {0.1, 8.0, "display codes"});
     double pct = 0.0;
@@ -108,15 +81,6 @@ void read_quality(TableReader table, Quality& quality) {
     if (percent != nullptr) quality.error_pct = pct;
     if (codes != nullptr && percent != nullptr)
         table.error(*percent, "error_pct", "stands beside error_codes; give one of them");
-    table.finish();
-}
-
-void read_eye(TableReader table, Eye& eye) {
-    std::size_t index = 0;
-    if (table.choice("operator", index, kToneNames) != nullptr) eye.tone = static_cast<ToneOperator>(index);
-    table.number("adapt_up_s", eye.adapt_up_s, {0.0, 600.0, "s"});
-    table.number("adapt_down_s", eye.adapt_down_s, {0.0, 600.0, "s"});
-    table.boolean("glare", eye.glare);
     table.finish();
 }
 
@@ -185,7 +149,7 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_record(root.table("record"), config.record);
     TableReader status = root.table("status");
     read_status(status, config.status);
-    read_channels(root, errors, config.channels);
+    read_channels(root, errors, config.display, config.channels);
     root.finish();
     return config;
 }

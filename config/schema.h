@@ -20,8 +20,17 @@ void read_status(TableReader& table, Status& status);
 void read_air(TableReader table, Air& air);
 void read_sky(TableReader table, Sky& sky);
 
-/// Reads the [[channel]] tables and checks them against one another.
-void read_channels(TableReader& root, ErrorList& errors, std::vector<Channel>& channels);
+/// Reads what [display] and [channel.display] have in common; what is left out stays. Full white that is
+/// given brings an adaptation of half of it.
+void read_screen(TableReader& table, Screen& screen);
+
+/// Reads [display], [eye].
+void read_display(TableReader table, Display& display);
+void read_eye(TableReader table, Eye& eye);
+
+/// Reads the [[channel]] tables and checks them against one another. \param usual  screen that theirs are
+/// variants of
+void read_channels(TableReader& root, ErrorList& errors, const Screen& usual, std::vector<Channel>& channels);
 
 /// 1..32 of letters, digits, '-' and '_': fit for a part of a file's name.
 [[nodiscard]] bool is_short_name(std::string_view text) noexcept;

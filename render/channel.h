@@ -2,8 +2,11 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <string>
+
+#include "render/display.h"
 
 namespace skyig::render {
 
@@ -23,6 +26,8 @@ struct Channel {
     std::string name;
     int width_px = 0;
     int height_px = 0;
+    /// Its own; not given: that of the rig's DisplaySettings.
+    std::optional<Screen> screen = {};
 };
 
 /// Where a channel looks in one frame. The view frame is x right, y up, -z along the view axis.

@@ -15,52 +15,90 @@ constexpr double kDegree = glm::radians(1.0);
 constexpr double kFreshElevation_rad = 0.02 * kDegree;
 constexpr double kLostElevation_rad = 0.5 * kDegree;
 
-double largest_step(const std::array<double, 2>& a, const std::array<double, 2>& b, std::size_t count) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < count; ++i)
-        largest = std::max(largest, std::abs(a[i] - b[i]));
-    return largest;
+using Body = DeferredAir::Body;
+constexpr std::array kBodies{Body::kSun, Body::kMoon};
+
+const LitAir& air_of(Body body, const SkyLight& light) noexcept {
+    return body == Body::kSun ? light.sun : light.moon;
+}
+
+const glm::dvec3& direction_of(Body body, const Scene& scene) noexcept {
+    return body == Body::kSun ? scene.sun.direction_enu : scene.moon.direction_enu;
+}
+
+bool shines(Body body, const Plan& plan, const SkyLight& light) noexcept {
+    return air_of(body, light).view != nullptr &&
+           (body == Body::kSun ? plan.sun_share : plan.moon_share) > 0.0;
 }
 
 }  // namespace
 
+bool DeferredAir::same_bodies(const Made& a, const Made& b) noexcept {
+    return std::equal(a.lights.begin(), a.lights.begin() + a.count, b.lights.begin(),
+                      b.lights.begin() + b.count,
+                      [](const Light& x, const Light& y) { return x.body == y.body; });
+}
+
+// Of the lights that both have.
+double DeferredAir::largest_step_rad(const Made& a, const Made& b) noexcept {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.count; ++i) {
+        for (std::size_t k = 0; k < b.count; ++k) {
+            if (a.lights[i].body == b.lights[k].body)
+                largest = std::max(largest, std::abs(a.lights[i].elevation_rad - b.lights[k].elevation_rad));
+        }
+    }
+    return largest;
+}
+
 void DeferredAir::begin(const Made& wanted, const LightTables& tables) {
     back_made_ = wanted;
-    back_.begin(wanted.sky, tables.air(), wanted.height_m, {wanted.elevations_rad.data(), wanted.count});
+    std::array<double, sky::models::AerialTable::kMaxLights> elevations_rad{};
+    for (std::size_t i = 0; i < wanted.count; ++i)
+        elevations_rad[i] = wanted.lights[i].elevation_rad;
+    back_.begin(wanted.sky, tables.air(), wanted.height_m, {elevations_rad.data(), wanted.count});
     building_ = true;
 }
 
 void DeferredAir::update(const Scene& scene, const Plan& plan, const LightTables& tables,
                          const SkyLight& light) {
     Made wanted{tables.air().share(), tables.sky(), scene.eye.height_m, {}, 0};
-    source_count_ = 0;
-    for (const LitAir* lit : {&light.sun, &light.moon}) {
-        const bool is_sun = lit == &light.sun;
-        if (lit->view == nullptr || !((is_sun ? plan.sun_share : plan.moon_share) > 0.0)) continue;
-        const glm::dvec3 direction = is_sun ? scene.sun.direction_enu : scene.moon.direction_enu;
-        const glm::dmat3 scale{lit->scale_xyz.x, 0.0, 0.0, 0.0, lit->scale_xyz.y, 0.0, 0.0, 0.0,
-                               lit->scale_xyz.z};
-        sources_[source_count_++] = {direction, kRec709FromXyz * scale * kXyzFromRec709};
-        wanted.elevations_rad[wanted.count++] = horizontal_of(direction).elevation_rad;
+    for (const Body body : kBodies) {
+        if (!shines(body, plan, light)) continue;
+        wanted.lights[wanted.count++] = {body, horizontal_of(direction_of(body, scene)).elevation_rad};
     }
     const double level_rad = std::max(light.straight_horizon_rad, 0.0);
     night_cd_m2_ = kRec709FromXyz * glm::dvec3{night::night_floor_xyz(level_rad, light.straight_horizon_rad,
                                                                       light.eye_height_m, false, 0.0)};
 
     const Made& latest = building_ ? back_made_ : front_made_;
-    const double step_rad = largest_step(latest.elevations_rad, wanted.elevations_rad, wanted.count);
-    const bool lost = latest.air == nullptr || latest.count != wanted.count ||
-                      step_rad > kLostElevation_rad ||
+    const double step_rad = largest_step_rad(latest, wanted);
+    const bool lost = latest.air == nullptr || tables.jumped() || step_rad > kLostElevation_rad ||
                       std::abs(latest.height_m - wanted.height_m) > 200.0 + 0.2 * std::abs(latest.height_m);
     const bool stale = latest.air != wanted.air || !(latest.sky == wanted.sky) ||
-                       step_rad > kFreshElevation_rad ||
+                       !same_bodies(latest, wanted) || step_rad > kFreshElevation_rad ||
                        sky::height_is_stale(wanted.height_m, latest.height_m);
     if (lost || (stale && !building_)) begin(wanted, tables);
-    if (!building_ || !back_.build_rows(lost ? sky::models::AerialTable::kRows : kRowsAFrame)) return;
-    std::swap(front_, back_);
-    front_made_ = back_made_;
-    building_ = false;
-    ++revision_;
+    if (building_ && back_.build_rows(lost ? sky::models::AerialTable::kRows : kRowsAFrame)) {
+        std::swap(front_, back_);
+        front_made_ = back_made_;
+        building_ = false;
+        ++revision_;
+    }
+    tell_sources(scene, plan, light);
+}
+
+// The lights of the table in use: one that has gone out adds nothing, one that has just come is not in it
+// yet, and fades in from nothing anyway.
+void DeferredAir::tell_sources(const Scene& scene, const Plan& plan, const SkyLight& light) noexcept {
+    source_count_ = front_made_.count;
+    for (std::size_t i = 0; i < source_count_; ++i) {
+        const Body body = front_made_.lights[i].body;
+        const glm::dvec3 scale_xyz{shines(body, plan, light) ? air_of(body, light).scale_xyz
+                                                             : glm::vec3{0.0F}};
+        const glm::dmat3 scale{scale_xyz.x, 0.0, 0.0, 0.0, scale_xyz.y, 0.0, 0.0, 0.0, scale_xyz.z};
+        sources_[i] = {direction_of(body, scene), kRec709FromXyz * scale * kXyzFromRec709};
+    }
 }
 
 glm::dvec3 DeferredAir::under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3& direction_enu,

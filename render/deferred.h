@@ -33,9 +33,10 @@ struct DeferredInput {
 class DeferredAir {
   public:
     static constexpr int kRowsAFrame = 8;
+    enum class Body { kSun, kMoon };
 
-    /// After LightTables::update(). The first call, and one that finds eye, lights or air somewhere else
-    /// altogether, builds the whole table at once.
+    /// After LightTables::update(). The first call, and one that finds the clock, the eye or a light
+    /// somewhere else altogether, builds the whole table at once.
     void update(const Scene& scene, const Plan& plan, const LightTables& tables, const SkyLight& light);
 
     /// One light of the frame: where it stands, what its table's light becomes.
@@ -56,15 +57,22 @@ class DeferredAir {
                                        double distance_m) const noexcept;
 
   private:
+    struct Light {
+        Body body = Body::kSun;
+        double elevation_rad = 0.0;
+    };
     /// What a table was made for.
     struct Made {
         std::shared_ptr<const sky::AirData> air;
         SkySettings sky;
         double height_m = 0.0;
-        std::array<double, sky::models::AerialTable::kMaxLights> elevations_rad{};
+        std::array<Light, sky::models::AerialTable::kMaxLights> lights{};
         std::size_t count = 0;
     };
+    [[nodiscard]] static bool same_bodies(const Made& a, const Made& b) noexcept;
+    [[nodiscard]] static double largest_step_rad(const Made& a, const Made& b) noexcept;
     void begin(const Made& wanted, const LightTables& tables);
+    void tell_sources(const Scene& scene, const Plan& plan, const SkyLight& light) noexcept;
 
     sky::models::AerialTable front_;
     sky::models::AerialTable back_;

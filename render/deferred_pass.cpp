@@ -61,7 +61,7 @@ void DeferredPass::upload() {
 }
 
 void DeferredPass::prepare(const Scene& scene, const Plan& plan, const LightTables& tables,
-                           const SkyLight& light, const shaders32::ToneParameters& tone, bool dither) {
+                           const SkyLight& light, bool dither) {
     air_.update(scene, plan, tables, light);
     if (uploaded_ != air_.revision()) upload();
     for (std::size_t i = 0; i < air_.source_count(); ++i) {
@@ -71,10 +71,11 @@ void DeferredPass::prepare(const Scene& scene, const Plan& plan, const LightTabl
     program_.set(source_count_, static_cast<float>(air_.source_count()));
     program_.set(night_, glm::vec3{air_.night_cd_m2()});
     program_.set(dither_, dither ? 1.0F : 0.0F);
-    tone_.set(program_, tone);
 }
 
-void DeferredPass::draw(const ChannelView& view, const DeferredInput& input) const {
+void DeferredPass::draw(const ChannelView& view, const DeferredInput& input,
+                        const shaders32::ToneParameters& tone) const {
+    tone_.set(program_, tone);
     const ImagePlane p = image_plane(view.frustum);
     const glm::dmat3 enu_from_view = glm::transpose(view.view_from_enu) * input.far_m;
     program_.use();

@@ -19,9 +19,10 @@ class DeferredPass {
 
     /// Once a frame, after LightTables::update().
     void prepare(const Scene& scene, const Plan& plan, const LightTables& tables, const SkyLight& light,
-                 const shaders32::ToneParameters& tone, bool dither);
+                 bool dither);
     /// Into the framebuffer that is bound, without blending.
-    void draw(const ChannelView& view, const DeferredInput& input) const;
+    void draw(const ChannelView& view, const DeferredInput& input,
+              const shaders32::ToneParameters& tone) const;
 
     [[nodiscard]] const DeferredAir& air() const noexcept { return air_; }
 

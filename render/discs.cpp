@@ -78,18 +78,26 @@ DiscFrame sunlit_frame(const Sun& sun, const sky::AirTables& air, const SkyLight
 
 ToneUniforms::ToneUniforms(const gl::Program& program, bool all) {
     encode_power_ = program.uniform("u_tone.encode_power");
+    ambient_ = program.uniform("u_tone.ambient");
+    shoulder_ = program.uniform("u_tone.shoulder");
     if (!all) return;
     log2_gain_ = program.uniform("u_tone.log2_gain");
     exponent_ = program.uniform("u_tone.exponent");
+    compression_ = program.uniform("u_tone.compression");
+    burn_ = program.uniform("u_tone.burn");
     photopic_ = program.uniform("u_tone.photopic");
     inv_display_max_ = program.uniform("u_tone.inv_display_max");
 }
 
 void ToneUniforms::set(const gl::Program& program, const shaders32::ToneParameters& tone) const {
     program.set(encode_power_, tone.encode_power);
+    program.set(ambient_, tone.ambient);
+    program.set(shoulder_, tone.shoulder);
     if (exponent_ < 0) return;
     program.set(log2_gain_, tone.log2_gain);
     program.set(exponent_, tone.exponent);
+    program.set(compression_, tone.compression);
+    program.set(burn_, tone.burn);
     program.set(photopic_, tone.photopic);
     program.set(inv_display_max_, tone.inv_display_max);
 }

@@ -24,7 +24,8 @@ class ToneUniforms {
     void set(const gl::Program& program, const shaders32::ToneParameters& tone) const;
 
   private:
-    int log2_gain_ = -1, exponent_ = -1, photopic_ = -1, inv_display_max_ = -1, encode_power_ = -1;
+    int log2_gain_ = -1, exponent_ = -1, compression_ = -1, burn_ = -1, photopic_ = -1, inv_display_max_ = -1;
+    int ambient_ = -1, shoulder_ = -1, encode_power_ = -1;
 };
 
 /// The program and the strip that a disc is drawn with, and the uniforms that all discs have.

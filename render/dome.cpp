@@ -13,6 +13,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+// Of the error that the picture may have, what columns that are left out may add.
+constexpr double kThinningShare = 0.4;
+
 // Where a value lies among rising nodes: the lower one and the share of the next.
 struct Place {
     std::size_t low = 0;
@@ -84,17 +87,18 @@ bool still_fits(const DomeLayout& held, const DomeLayout& wanted) noexcept {
            std::abs(held.adaptation_cd_m2 - wanted.adaptation_cd_m2) < 0.1 * held.adaptation_cd_m2;
 }
 
-Dome::Dome()
-    : patches_(static_cast<std::uint32_t>(DomeBend::kMost.rows()),
+Dome::Dome(std::size_t screens)
+    : vertices_(screens),
+      patches_(static_cast<std::uint32_t>(DomeBend::kMost.rows()),
                static_cast<std::uint32_t>(DomeBend::kMost.columns)) {
     for (auto* rows : {&rows_, &old_rows_})
         rows->reserve(static_cast<std::size_t>(DomeBend::kMost.rows() + 1));
     for (auto* columns : {&azimuths_rad_, &old_azimuths_rad_})
         columns->reserve(static_cast<std::size_t>(DomeBend::kMost.columns + 1));
-    vertices_.reserve(kMaxVertices);
+    for (auto& vertices : vertices_)
+        vertices.reserve(kMaxVertices);
     for (auto* each : {&directions_, &from_, &to_, &codes_})
         each->reserve(kMaxVertices);
-    rising_.reserve(kMaxVertices);
 }
 
 // The two rows at the horizon stand where its softness ends, one quad apart.
@@ -126,7 +130,8 @@ void Dome::lay_out(const DomeLayout& layout, const DomeBend& bend, const DomeSiz
     size_ = size;
     place_rows(bend);
     const std::size_t count = rows_.size() * stride();
-    vertices_.resize(count);
+    for (auto& vertices : vertices_)
+        vertices.resize(count);
     directions_.resize(count);
     from_.resize(count);
     const double horizon = layout_.horizon_elevation_rad;
@@ -134,7 +139,8 @@ void Dome::lay_out(const DomeLayout& layout, const DomeBend& bend, const DomeSiz
     for (const Row& row : rows_) {
         for (const double azimuth : azimuths_rad_) {
             directions_[out] = glm::vec3{direction_of({horizon + row.above_horizon_rad, azimuth})};
-            vertices_[out].direction = directions_[out];
+            for (auto& vertices : vertices_)
+                vertices[out].direction = directions_[out];
             ++out;
         }
     }
@@ -151,9 +157,11 @@ void Dome::lay_out(const DomeLayout& layout, const DomeBend& bend, const DomeSiz
 void Dome::settle_mix() noexcept {
     if (share_ >= 1.0) return;
     const auto share = static_cast<float>(share_);
-    for (std::size_t i = 0; i < to_.size(); ++i) {
+    for (std::size_t i = 0; i < to_.size(); ++i)
         to_[i] = glm::mix(from_[i], to_[i], share);
-        vertices_[i].to = glm::mix(vertices_[i].from, vertices_[i].to, share);
+    for (auto& vertices : vertices_) {
+        for (DomeVertex& vertex : vertices)
+            vertex.to = glm::mix(vertex.from, vertex.to, share);
     }
     share_ = 1.0;
 }
@@ -229,62 +237,129 @@ glm::vec3 Dome::bend_at(std::size_t row, std::size_t column) const noexcept {
 // Between vertices of a curved colour interpolation errs to one side; vertices moved half of that to the
 // other halve the largest error.
 void Dome::encode_one(const std::vector<glm::vec3>& light, const shaders32::ToneParameters& tone,
-                      glm::vec3 DomeVertex::*out) {
+                      std::vector<DomeVertex>& vertices, glm::vec3 DomeVertex::*out) {
     for (std::size_t i = 0; i < light.size(); ++i)
         codes_[i] = shaders32::shown(light[i], tone);
     std::size_t i = 0;
     for (std::size_t row = 0; row < rows_.size(); ++row) {
         for (std::size_t column = 0; column < stride(); ++column, ++i)
-            vertices_[i].*out = glm::clamp(codes_[i] - 0.5F * bend_at(row, column), 0.0F, 1.0F);
+            vertices[i].*out = glm::clamp(codes_[i] - 0.5F * bend_at(row, column), 0.0F, 1.0F);
     }
 }
 
-void Dome::encode(const shaders64::ToneParameters& tone) {
-    const auto tone32 = eye::single_precision(tone);
-    if (replaced_ && !laid_) {
-        // What is on the screen now.
-        for (DomeVertex& vertex : vertices_)
-            vertex.from = vertex.to;
-    } else if (share_ < 1.0) {
-        encode_one(from_, tone32, &DomeVertex::from);
+void Dome::encode(std::span<const shaders64::ToneParameters> tones) {
+    // The first screen comes last: its codes stay for split_quads().
+    for (std::size_t screen = vertices_.size(); screen-- > 0;) {
+        const auto tone32 = eye::single_precision(tones[screen]);
+        std::vector<DomeVertex>& vertices = vertices_[screen];
+        if (replaced_ && !laid_) {
+            // What is on the screen now.
+            for (DomeVertex& vertex : vertices)
+                vertex.from = vertex.to;
+        } else if (share_ < 1.0) {
+            encode_one(from_, tone32, vertices, &DomeVertex::from);
+        }
+        encode_one(to_, tone32, vertices, &DomeVertex::to);
     }
-    encode_one(to_, tone32, &DomeVertex::to);
     if (replaced_) begin_fade();
     replaced_ = laid_ = false;
     if (share_ < 1.0) return;
-    for (DomeVertex& vertex : vertices_)
-        vertex.from = vertex.to;
+    for (auto& vertices : vertices_) {
+        for (DomeVertex& vertex : vertices)
+            vertex.from = vertex.to;
+    }
 }
 
-double Dome::split_quads(const SkyLight& light, double azimuth_rad, const shaders64::ToneParameters& tone) {
-    const auto tone32 = eye::single_precision(tone);
-    rising_.assign(static_cast<std::size_t>(size_.rows()) * static_cast<std::size_t>(size_.columns), 0);
+// What is missed at the vertices of one row that a wider step leaves out, of 1. Between two kept ones the
+// triangle's edge is a great circle: away from the level it runs nearer to the pole than the row.
+float Dome::thinning_error(std::size_t row, std::size_t column, std::size_t columns,
+                           std::size_t step) const noexcept {
+    const double elevation = layout_.horizon_elevation_rad + rows_[row].above_horizon_rad;
+    const std::size_t last = rows_.size() - 1;
+    const std::size_t beside =
+        elevation > 0.0 ? std::min(row + 1, last) : row - std::min<std::size_t>(row, 1);
+    const double apart = rows_[beside].above_horizon_rad - rows_[row].above_horizon_rad;
+    const double leaves = 0.5 * std::sin(elevation) * std::cos(elevation);
+    const glm::vec3* codes = &codes_[row * stride()];
+    const glm::vec3* poleward = &codes_[beside * stride()];
     float largest = 0.0F;
-    std::size_t quad = 0;
-    for (std::size_t row = 0; row + 1 < rows_.size(); ++row) {
-        const Row& low = rows_[row];
-        const Row& high = rows_[row + 1];
-        const double elevation =
-            light.horizon_elevation_rad + 0.5 * (low.above_horizon_rad + high.above_horizon_rad);
-        const glm::vec3* code = &codes_[row * stride()];
-        for (std::size_t column = 0; column + 1 < stride(); ++column, ++quad, ++code) {
-            if (low.side != high.side) continue;
-            const double azimuth = azimuth_rad + 0.5 * (azimuths_rad_[column] + azimuths_rad_[column + 1]);
-            const glm::vec3 middle = shaders32::shown(light.rgb_cd_m2(elevation, azimuth, low.side), tone32);
-            const float falling = largest_of(glm::abs(0.5F * (code[1] + code[stride()]) - middle));
-            const float rising = largest_of(glm::abs(0.5F * (code[0] + code[stride() + 1]) - middle));
-            rising_[quad] = rising < falling ? 1 : 0;
-            largest = std::max(largest, std::min(rising, falling));
+    for (std::size_t left = column; left < column + columns; left += step) {
+        const std::size_t right = left + step;
+        for (std::size_t at = left + 1; at < right; ++at) {
+            const double before = azimuths_rad_[at] - azimuths_rad_[left];
+            const double after = azimuths_rad_[right] - azimuths_rad_[at];
+            const auto share = static_cast<float>(before / (before + after));
+            const auto risen = apart != 0.0 ? static_cast<float>(leaves * before * after / apart) : 0.0F;
+            const glm::vec3 wanted = codes[at] + risen * (poleward[at] - codes[at]);
+            largest =
+                std::max(largest, largest_of(glm::abs(glm::mix(codes[left], codes[right], share) - wanted)));
         }
     }
-    patches_.split(rising_);
+    return largest;
+}
+
+float Dome::thinning_error(const DomePatches::Quad& corner, std::uint32_t rows,
+                           std::uint32_t columns) const noexcept {
+    float largest = 0.0F;
+    for (std::size_t row = corner.row; row <= corner.row + rows; ++row)
+        largest = std::max(largest, thinning_error(row, corner.column, columns, corner.step));
+    for (std::uint32_t row = corner.row; row < corner.row + rows; ++row) {
+        if (rows_[row].side != rows_[row + 1].side) continue;
+        for (std::uint32_t column = corner.column; column < corner.column + columns; column += corner.step) {
+            const std::size_t middle = row * stride() + column + corner.step / 2;
+            const DiagonalErrors missed = diagonal_errors(
+                {row, column, corner.step}, 0.5F * (codes_[middle] + codes_[middle + stride()]));
+            largest = std::max(largest, std::min(missed.rising, missed.falling));
+        }
+    }
+    return largest;
+}
+
+Dome::DiagonalErrors Dome::diagonal_errors(const DomePatches::Quad& quad,
+                                           const glm::vec3& middle) const noexcept {
+    const glm::vec3* low = &codes_[quad.row * stride() + quad.column];
+    const glm::vec3* high = low + stride();
+    return {largest_of(glm::abs(0.5F * (low[0] + high[quad.step]) - middle)),
+            largest_of(glm::abs(0.5F * (low[quad.step] + high[0]) - middle))};
+}
+
+double Dome::triangulate(const SkyLight& light, double azimuth_rad, const shaders64::ToneParameters& tone,
+                         double error_codes) {
+    const auto tone32 = eye::single_precision(tone);
+    const auto most_missed = static_cast<float>(kThinningShare * error_codes / 255.0);
+    float largest = 0.0F;
+    const auto may_thin = [&](const DomePatches::Quad& corner, std::uint32_t rows, std::uint32_t columns) {
+        return thinning_error(corner, rows, columns) < most_missed;
+    };
+    const auto rising = [&](const DomePatches::Quad& quad) {
+        const Row& low = rows_[quad.row];
+        const Row& high = rows_[quad.row + 1];
+        if (low.side != high.side) return false;
+        if (quad.step > 1) {
+            const std::size_t middle = quad.row * stride() + quad.column + quad.step / 2;
+            const DiagonalErrors wide =
+                diagonal_errors(quad, 0.5F * (codes_[middle] + codes_[middle + stride()]));
+            return wide.rising < wide.falling;
+        }
+        const double elevation =
+            light.horizon_elevation_rad + 0.5 * (low.above_horizon_rad + high.above_horizon_rad);
+        const double azimuth =
+            azimuth_rad + 0.5 * (azimuths_rad_[quad.column] + azimuths_rad_[quad.column + 1]);
+        const DiagonalErrors missed =
+            diagonal_errors(quad, shaders32::shown(light.rgb_cd_m2(elevation, azimuth, low.side), tone32));
+        largest = std::max(largest, std::min(missed.rising, missed.falling));
+        return missed.rising < missed.falling;
+    };
+    patches_.triangulate(may_thin, rising);
     return 0.5 * 255.0 * static_cast<double>(largest);
 }
 
 void Dome::begin_fade() noexcept {
     float largest = 0.0F;
-    for (const DomeVertex& vertex : vertices_)
-        largest = std::max(largest, largest_of(glm::abs(vertex.to - vertex.from)));
+    for (const auto& vertices : vertices_) {
+        for (const DomeVertex& vertex : vertices)
+            largest = std::max(largest, largest_of(glm::abs(vertex.to - vertex.from)));
+    }
     const double frames = std::ceil(255.0 * static_cast<double>(largest) / kFadeStep_codes);
     fade_step_ = 1.0 / std::clamp(frames, 1.0, static_cast<double>(kLongestFade));
 }

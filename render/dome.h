@@ -1,6 +1,6 @@
 // The mesh that carries all smooth light: vertices are directions round the eye, colours are toned at the
-// vertices, for all channels. Rows and columns stand where the toned light bends. What changes because a
-// table was replaced fades in over some frames. Free of GL.
+// vertices, for all channels of a screen. Rows and columns stand where the toned light bends. What changes
+// because a table was replaced fades in over some frames. Free of GL.
 #pragma once
 
 #include <cstdint>
@@ -64,7 +64,8 @@ class Dome {
         static_cast<std::size_t>(DomeBend::kMost.columns + 1);
 
     /// Allocates for the largest size; nothing later does.
-    Dome();
+    /// \param screens  different ones that the light is toned for, >= 1
+    explicit Dome(std::size_t screens = 1);
 
     /// Places the vertices; what they showed before is carried over to them.
     void lay_out(const DomeLayout& layout, const DomeBend& bend, const DomeSize& size);
@@ -77,15 +78,21 @@ class Dome {
     };
     /// Asks the light of every vertex, absolute. \param azimuth_rad  of the mesh in this frame
     void look_up(const SkyLight& light, double azimuth_rad, Change change);
-    /// Colours the vertices.
-    void encode(const shaders64::ToneParameters& tone);
-    /// Cuts each quad along the diagonal that is closer to the light in its middle. Precondition: encode()
-    /// with the same light. \return the largest error in the middle of a quad, display codes
-    double split_quads(const SkyLight& light, double azimuth_rad, const shaders64::ToneParameters& tone);
+    /// Colours the vertices. \param tones  one for each screen
+    void encode(std::span<const shaders64::ToneParameters> tones);
+    void encode(const shaders64::ToneParameters& tone) { encode(std::span{&tone, 1}); }
+    /// Leaves out columns where a patch of the dome can do without, and cuts each quad along the diagonal
+    /// that is closer to the light in its middle: on the first screen, whose tone is given, for the others
+    /// show the same bends. Precondition: encode() with the same light. \param error_codes  largest error
+    /// that the picture may have \return the largest error in the middle of a quad, display codes
+    double triangulate(const SkyLight& light, double azimuth_rad, const shaders64::ToneParameters& tone,
+                       double error_codes);
     /// One frame further in the fade. To be called once a frame.
     void step() noexcept;
 
-    [[nodiscard]] std::span<const DomeVertex> vertices() const noexcept { return vertices_; }
+    [[nodiscard]] std::span<const DomeVertex> vertices(std::size_t screen = 0) const noexcept {
+        return vertices_[screen];
+    }
     [[nodiscard]] std::span<const std::uint32_t> indices() const noexcept { return patches_.indices(); }
     /// How far the fade is, 0..1: 1 shows DomeVertex::to.
     [[nodiscard]] double share() const noexcept { return share_; }
@@ -111,8 +118,19 @@ class Dome {
     void settle_mix() noexcept;
     void carry_over(const std::vector<Row>& rows, const std::vector<double>& azimuths_rad, double turn_rad);
     void encode_one(const std::vector<glm::vec3>& light, const shaders32::ToneParameters& tone,
-                    glm::vec3 DomeVertex::*out);
+                    std::vector<DomeVertex>& vertices, glm::vec3 DomeVertex::*out);
     [[nodiscard]] glm::vec3 bend_at(std::size_t row, std::size_t column) const noexcept;
+    [[nodiscard]] float thinning_error(std::size_t row, std::size_t column, std::size_t columns,
+                                       std::size_t step) const noexcept;
+    [[nodiscard]] float thinning_error(const DomePatches::Quad& corner, std::uint32_t rows,
+                                       std::uint32_t columns) const noexcept;
+    /// What is missed in the middle of a quad by cutting it along each diagonal, of 1.
+    struct DiagonalErrors {
+        float rising = 0.0F;
+        float falling = 0.0F;
+    };
+    [[nodiscard]] DiagonalErrors diagonal_errors(const DomePatches::Quad& quad,
+                                                 const glm::vec3& middle) const noexcept;
     void begin_fade() noexcept;
 
     DomeLayout layout_;
@@ -121,12 +139,12 @@ class Dome {
     std::vector<Row> old_rows_;
     std::vector<double> azimuths_rad_;
     std::vector<double> old_azimuths_rad_;
-    std::vector<DomeVertex> vertices_;
+    std::vector<std::vector<DomeVertex>> vertices_;  // of each screen
     std::vector<glm::vec3> directions_;
     std::vector<glm::vec3> from_;  // linear Rec.709, cd/m2
     std::vector<glm::vec3> to_;
-    std::vector<glm::vec3> codes_;  // of `to_`, before they are moved to balance the error
-    std::vector<std::uint8_t> rising_;
+    /// Of `to_` on the first screen, before they are moved to balance the error.
+    std::vector<glm::vec3> codes_;
     DomePatches patches_;
     double share_ = 1.0;
     double fade_step_ = 1.0;

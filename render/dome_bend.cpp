@@ -145,47 +145,64 @@ void BendProfile::place(std::span<double> nodes_rad) const noexcept {
 DomeBend::DomeBend()
     : sky_(kSkySamples), ground_(kGroundSamples), columns_(kColumnSamples), codes_(kColumnSamples) {}
 
-void DomeBend::measure(const SkyLight& light, const shaders64::ToneParameters& tone, double azimuth_rad,
-                       double edge_rad) {
-    const auto tone32 = eye::single_precision(tone);
-    const double horizon = light.horizon_elevation_rad;
-    const auto code = [&](double above_rad, double azimuth, Side side) {
-        return 255.0 *
-               glm::dvec3{shaders32::shown(light.rgb_cd_m2(horizon + above_rad, azimuth, side), tone32)};
-    };
-    const auto along = [&](BendProfile& profile, double low_rad, double high_rad, Side side) {
+void DomeBend::place_samples(const SkyLight& light, double edge_rad) {
+    const double first_rad = 0.5 * edge_rad;
+    const auto crowd_at_horizon = [&](BendProfile& profile, double last_rad, bool upwards) {
         profile.clear();
         const auto x = profile.positions_rad();
-        const auto last = static_cast<double>(x.size() - 1);
-        const double range = high_rad - low_rad;
         for (std::size_t i = 0; i < x.size(); ++i) {
-            const double share = static_cast<double>(i) / last;
-            x[i] =
-                side == Side::kSky ? low_rad + spread(share, range) : high_rad - spread(1.0 - share, range);
+            const double share = static_cast<double>(i) / static_cast<double>(x.size() - 1);
+            x[i] = upwards ? first_rad + spread(share, last_rad - first_rad)
+                           : -first_rad - spread(1.0 - share, last_rad - first_rad);
         }
+    };
+    crowd_at_horizon(sky_, 0.5 * kPi - light.horizon_elevation_rad, true);
+    crowd_at_horizon(ground_, 0.5 * kPi + light.horizon_elevation_rad, false);
+    columns_.clear();
+    const bool mirrored = light.sun.view == nullptr || light.moon.view == nullptr;
+    const double second = light.moon.source.azimuth_rad - light.sun.source.azimuth_rad;
+    spread_columns(columns_.positions_rad(), mirrored ? std::nullopt : std::optional(second));
+}
+
+void DomeBend::measure(const SkyLight& light, std::span<const shaders64::ToneParameters> tones,
+                       double azimuth_rad, double edge_rad) {
+    place_samples(light, edge_rad);
+    for (const shaders64::ToneParameters& tone : tones) {
+        const auto tone32 = eye::single_precision(tone);
+        measure_rows(light, tone32, azimuth_rad);
+        measure_columns(light, tone32, azimuth_rad);
+    }
+    sky_.finish(kWidestRow_rad);
+    ground_.finish(kWidestRow_rad);
+    // The horizon's own edge shall not leave its place by more than a quarter of its softness.
+    const double horizon = light.horizon_elevation_rad;
+    const double dip = std::abs(std::sin(horizon) * std::cos(horizon));
+    columns_.finish(std::min(kWidestColumn_rad, std::sqrt(2.0 * edge_rad / std::max(dip, 1e-9))));
+}
+
+void DomeBend::measure_rows(const SkyLight& light, const shaders32::ToneParameters& tone,
+                            double azimuth_rad) {
+    const auto along = [&](BendProfile& profile, Side side) {
+        const auto x = profile.positions_rad();
         each_meridian(light, azimuth_rad, kMeridians_rad, [&](double azimuth) {
-            for (std::size_t i = 0; i < x.size(); ++i)
-                codes_[i] = code(x[i], azimuth, side);
+            for (std::size_t i = 0; i < x.size(); ++i) {
+                const glm::vec3 rgb = light.rgb_cd_m2(light.horizon_elevation_rad + x[i], azimuth, side);
+                codes_[i] = 255.0 * glm::dvec3{shaders32::shown(rgb, tone)};
+            }
             for (std::size_t i = 1; i + 1 < x.size(); ++i)
                 profile.add(i, second_derivative(codes_[i - 1], codes_[i], codes_[i + 1], x[i] - x[i - 1],
                                                  x[i + 1] - x[i]));
         });
-        profile.finish(kWidestRow_rad);
     };
-    along(sky_, 0.5 * edge_rad, 0.5 * kPi - horizon, Side::kSky);
-    along(ground_, -0.5 * kPi - horizon, -0.5 * edge_rad, Side::kGround);
-
-    measure_columns(light, tone32, azimuth_rad, edge_rad);
+    along(sky_, Side::kSky);
+    along(ground_, Side::kGround);
 }
 
 void DomeBend::measure_columns(const SkyLight& light, const shaders32::ToneParameters& tone,
-                               double azimuth_rad, double edge_rad) {
+                               double azimuth_rad) {
     const double horizon = light.horizon_elevation_rad;
     const bool mirrored = light.sun.view == nullptr || light.moon.view == nullptr;
-    const double second = light.moon.source.azimuth_rad - light.sun.source.azimuth_rad;
-    columns_.clear();
     const auto x = columns_.positions_rad();
-    spread_columns(x, mirrored ? std::nullopt : std::optional(second));
     const std::size_t first = mirrored ? x.size() / 2 - 1 : 0;
     const auto code = [&](double above_rad, std::size_t i, Side side) {
         const glm::vec3 rgb = light.rgb_cd_m2(horizon + above_rad, azimuth_rad + x[i], side);
@@ -209,9 +226,6 @@ void DomeBend::measure_columns(const SkyLight& light, const shaders32::ToneParam
             if (mirrored) columns_.add(x.size() - 1 - i, bend);
         }
     }
-    // The horizon's own edge shall not leave its place by more than a quarter of its softness.
-    const double dip = std::abs(std::sin(horizon) * std::cos(horizon));
-    columns_.finish(std::min(kWidestColumn_rad, std::sqrt(2.0 * edge_rad / std::max(dip, 1e-9))));
 }
 
 DomeSize DomeBend::size_for(double error_codes) const noexcept {

@@ -54,9 +54,14 @@ class DomeBend {
   public:
     DomeBend();
 
-    /// \param edge_rad  angle over which the horizon is softened
-    void measure(const SkyLight& light, const shaders64::ToneParameters& tone, double azimuth_rad,
+    /// The largest over all screens. \param tones  one for each; \param edge_rad  angle over which the
+    /// horizon is softened
+    void measure(const SkyLight& light, std::span<const shaders64::ToneParameters> tones, double azimuth_rad,
                  double edge_rad);
+    void measure(const SkyLight& light, const shaders64::ToneParameters& tone, double azimuth_rad,
+                 double edge_rad) {
+        measure(light, std::span{&tone, 1}, azimuth_rad, edge_rad);
+    }
 
     /// Quads for a dome whose largest error is this. Multiples of 8, within kLeast and kMost.
     [[nodiscard]] DomeSize size_for(double error_codes) const noexcept;
@@ -71,8 +76,9 @@ class DomeBend {
     static constexpr DomeSize kMost{192, 112, 64};
 
   private:
-    void measure_columns(const SkyLight& light, const shaders32::ToneParameters& tone, double azimuth_rad,
-                         double edge_rad);
+    void place_samples(const SkyLight& light, double edge_rad);
+    void measure_rows(const SkyLight& light, const shaders32::ToneParameters& tone, double azimuth_rad);
+    void measure_columns(const SkyLight& light, const shaders32::ToneParameters& tone, double azimuth_rad);
 
     BendProfile sky_;
     BendProfile ground_;

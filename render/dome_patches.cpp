@@ -18,20 +18,51 @@ void DomePatches::resize(std::uint32_t rows, std::uint32_t columns) {
     stride_ = columns + 1;
     indices_.clear();
     patches_.clear();
+    patches_across_ = (columns + kSide - 1) / kSide;
     for (std::uint32_t row = 0; row < rows; row += kSide) {
-        for (std::uint32_t column = 0; column < columns; column += kSide) {
-            Patch patch{row, column, std::min(kSide, rows - row), std::min(kSide, columns - column), {}};
-            patch.range.first = indices_.size();
-            patch.range.count = std::size_t{patch.rows} * patch.columns * 6;
-            indices_.resize(patch.range.first + patch.range.count);
-            patches_.push_back(patch);
-        }
+        for (std::uint32_t column = 0; column < columns; column += kSide)
+            patches_.push_back(
+                {row, column, std::min(kSide, rows - row), std::min(kSide, columns - column), 1, {}});
     }
-    cut([](std::size_t) { return false; });
+    cut([](const Quad&) { return false; });
 }
 
-void DomePatches::split(std::span<const std::uint8_t> rising) noexcept {
-    cut([rising](std::size_t quad) { return rising[quad] != 0; });
+std::uint32_t DomePatches::shared_step(std::size_t patch, int side) const noexcept {
+    const std::uint32_t own = patches_[patch].step;
+    if (side < 0)
+        return patch < patches_across_ ? own : std::min(own, patches_[patch - patches_across_].step);
+    const std::size_t above = patch + patches_across_;
+    return above < patches_.size() ? std::min(own, patches_[above].step) : own;
+}
+
+void DomePatches::put(std::uint32_t a, std::uint32_t b, std::uint32_t c) noexcept {
+    indices_.push_back(a);
+    indices_.push_back(b);
+    indices_.push_back(c);
+}
+
+void DomePatches::put_quad(const Quad& quad, bool rising) noexcept {
+    const std::uint32_t low = quad.row * stride_ + quad.column;
+    const std::uint32_t high = low + stride_;
+    put(low, low + quad.step, rising ? high + quad.step : high);
+    put(high, rising ? low : low + quad.step, high + quad.step);
+}
+
+// A zip along both rows from the lower column on: the row that lags steps first.
+void DomePatches::put_stitches(const Quad& quad, std::uint32_t low_step, std::uint32_t high_step) noexcept {
+    const std::uint32_t low = quad.row * stride_ + quad.column;
+    const std::uint32_t high = low + stride_;
+    std::uint32_t at_low = 0;
+    std::uint32_t at_high = 0;
+    while (at_low < quad.step || at_high < quad.step) {
+        if (at_high >= quad.step || (at_low < quad.step && at_low + low_step <= at_high + high_step)) {
+            put(low + at_low, low + at_low + low_step, high + at_high);
+            at_low += low_step;
+        } else {
+            put(high + at_high, low + at_low, high + at_high + high_step);
+            at_high += high_step;
+        }
+    }
 }
 
 void DomePatches::bound(std::span<const glm::vec3> directions) noexcept {

@@ -2,6 +2,7 @@
 // dome costs beside its pixels is triangles that no channel sees. Free of GL.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -19,7 +20,7 @@ struct IndexRange {
 /// A grid of rows x columns of directions, cut into patches of at most kSide x kSide quads.
 class DomePatches {
   public:
-    static constexpr std::uint32_t kSide = 8;
+    static constexpr std::uint32_t kSide = 4;
 
     /// \param rows, columns  quads each way; row-major vertices, columns + 1 in a row
     DomePatches(std::uint32_t rows, std::uint32_t columns);
@@ -27,9 +28,34 @@ class DomePatches {
     /// Another grid, none larger than the first one. Allocates nothing.
     void resize(std::uint32_t rows, std::uint32_t columns);
 
-    /// Along which diagonal each quad is cut in two. \param rising  quads, row by row: not 0 if the cut runs
-    /// from the lower column in the lower row to the higher in the higher; all are 0 after resize()
-    void split(std::span<const std::uint8_t> rising) noexcept;
+    /// Quads of a row that are drawn as one.
+    static constexpr std::array<std::uint32_t, 3> kSteps{4, 2, 1};
+    /// A run of columns between two rows that is cut into triangles.
+    struct Quad {
+        std::uint32_t row = 0;
+        std::uint32_t column = 0;
+        std::uint32_t step = 1;
+    };
+
+    /// Makes the triangles anew. Each patch leaves out as many of its columns as it may; where two patches of
+    /// different steps meet, both keep the columns of the finer one, so that no gap opens.
+    /// \param may_thin  (Quad of the patch's corner, rows, columns) -> bool: whether the patch may be drawn
+    /// by every step-th of its columns alone \param rising  (Quad) -> bool: whether it is cut from the lower
+    /// column in the lower row to the higher in the higher; false for all after resize()
+    template <class MayThin, class Rising>
+    void triangulate(MayThin may_thin, Rising rising) noexcept {
+        for (Patch& patch : patches_) {
+            patch.step = 1;
+            for (const std::uint32_t step : kSteps) {
+                if (patch.columns % step != 0) continue;
+                if (step > 1 && !may_thin(Quad{patch.row, patch.column, step}, patch.rows, patch.columns))
+                    continue;
+                patch.step = step;
+                break;
+            }
+        }
+        cut(rising);
+    }
 
     /// Triangles, patch by patch.
     [[nodiscard]] std::span<const std::uint32_t> indices() const noexcept { return indices_; }
@@ -48,6 +74,7 @@ class DomePatches {
         std::uint32_t column = 0;
         std::uint32_t rows = 0;
         std::uint32_t columns = 0;
+        std::uint32_t step = 1;
         IndexRange range;
         /// The cone that holds the patch: its axis, and the sine of its half angle (1: a half space or more).
         glm::dvec3 axis{0.0, 0.0, 1.0};
@@ -55,26 +82,32 @@ class DomePatches {
     };
     template <class Rising>
     void cut(Rising rising) noexcept {
-        auto out = indices_.begin();
-        const auto put = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-            *out++ = a;
-            *out++ = b;
-            *out++ = c;
-        };
-        for (const Patch& patch : patches_) {
-            for (std::uint32_t r = patch.row; r < patch.row + patch.rows; ++r) {
-                for (std::uint32_t c = patch.column; c < patch.column + patch.columns; ++c) {
-                    const std::uint32_t low = r * stride_ + c;
-                    const std::uint32_t high = low + stride_;
-                    const bool cut_rises = rising(std::size_t{r} * (stride_ - 1) + c);
-                    put(low, low + 1, cut_rises ? high + 1 : high);
-                    put(high, cut_rises ? low : low + 1, high + 1);
+        indices_.clear();
+        for (std::size_t i = 0; i < patches_.size(); ++i) {
+            Patch& patch = patches_[i];
+            patch.range.first = indices_.size();
+            for (std::uint32_t r = 0; r < patch.rows; ++r) {
+                const std::uint32_t low = r == 0 ? shared_step(i, -1) : patch.step;
+                const std::uint32_t high = r + 1 == patch.rows ? shared_step(i, 1) : patch.step;
+                for (std::uint32_t c = 0; c < patch.columns; c += patch.step) {
+                    const Quad quad{patch.row + r, patch.column + c, patch.step};
+                    if (low == patch.step && high == patch.step)
+                        put_quad(quad, rising(quad));
+                    else
+                        put_stitches(quad, low, high);
                 }
             }
+            patch.range.count = indices_.size() - patch.range.first;
         }
     }
+    /// Of the row that a patch shares with the one above (1) or below (-1) it.
+    [[nodiscard]] std::uint32_t shared_step(std::size_t patch, int side) const noexcept;
+    void put(std::uint32_t a, std::uint32_t b, std::uint32_t c) noexcept;
+    void put_quad(const Quad& quad, bool rising) noexcept;
+    void put_stitches(const Quad& quad, std::uint32_t low_step, std::uint32_t high_step) noexcept;
 
     std::uint32_t stride_ = 1;
+    std::size_t patches_across_ = 1;
     std::vector<std::uint32_t> indices_;
     std::vector<Patch> patches_;
     std::vector<IndexRange> visible_;

@@ -111,6 +111,7 @@ void Glare::update(const GlareSource& source, const SkyLight& light, const Displ
                    const shaders64::ToneParameters& tone) noexcept {
     reach_rad_ = 0.0;
     limb_ = {};
+    vertices_.fill({});
     const glm::dvec3 lux = glm::max(source.rgb_lux, glm::dvec3{0.0});
     if (!display.glare || !(luminance(lux) > 0.0)) return;
     Veiled veiled{display, tone, lux, kReach_rad};

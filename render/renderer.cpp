@@ -12,6 +12,7 @@
 #include "render/gl/mesh.h"
 #include "render/gl/program.h"
 #include "render/glare_pass.h"
+#include "render/screens.h"
 #include "render/sky_frame.h"
 #include "render/star_field.h"
 
@@ -85,28 +86,34 @@ class StarPass {
 
 struct Renderer::Impl {
     Impl(std::vector<Channel> channel_list, const DisplaySettings& display_settings, const Quality& quality)
-        : channels(std::move(channel_list)), display(display_settings), frame(display_settings, quality) {
+        : channels(std::move(channel_list)),
+          display(display_settings),
+          screens(screens_of(channels, display_settings)),
+          frame(display_settings, quality, screens.distinct) {
         for (const Channel& channel : channels)
             targets.emplace_back(channel.width_px, channel.height_px);
+        for (std::size_t i = 0; i < screens.distinct.size(); ++i)
+            dome_meshes.emplace_back(std::initializer_list<int>{3, 3, 3}, Dome::kMaxVertices);
         dome_program.set(dome_program.uniform("u_dither_codes"), display.dither ? 1.0F : 0.0F);
         gl::set_common_state();
     }
 
     void upload_dome();
-    void prepare_points_and_discs();
-    void prepare_moon();
-    void draw_dome(const Channel& channel, const glm::dmat4& clip_from_enu);
+    void prepare_points_and_discs(std::size_t screen);
+    void prepare_moon(std::size_t screen);
+    void draw_dome(std::size_t channel, const glm::dmat4& clip_from_enu);
     void refresh_deferred();
 
     std::vector<Channel> channels;
     DisplaySettings display;
+    Screens screens;
     gl::DebugLog log;
     std::vector<gl::Framebuffer> targets;
     gl::Program dome_program{"sky/dome.vert", "sky/dome.frag"};
     int dome_clip = dome_program.uniform("u_clip_from_mesh");
     int dome_half_size = dome_program.uniform("u_half_size_px");
     int dome_share = dome_program.uniform("u_share");
-    gl::Mesh dome_mesh{{3, 3, 3}, Dome::kMaxVertices};
+    std::vector<gl::Mesh> dome_meshes;  // one a screen
     std::uint64_t triangles_revision = 0;
     std::uint64_t vertices_revision = 0;
     StarPass stars;
@@ -121,56 +128,62 @@ struct Renderer::Impl {
     SkyFrame frame;
     Scene scene;
     double pixel_rad = 1e-3;
+    std::size_t points_screen = 0;  // what points and discs are prepared for
     FrameReport report;
 };
 
 void Renderer::Impl::upload_dome() {
-    if (triangles_revision != frame.triangles_revision()) dome_mesh.set_indices(frame.dome().indices());
-    if (vertices_revision != frame.vertices_revision()) {
-        const auto vertices = frame.dome().vertices();
-        dome_mesh.update(
-            {reinterpret_cast<const float*>(vertices.data()), vertices.size_bytes() / sizeof(float)});
+    for (std::size_t screen = 0; screen < dome_meshes.size(); ++screen) {
+        gl::Mesh& mesh = dome_meshes[screen];
+        if (triangles_revision != frame.triangles_revision()) mesh.set_indices(frame.dome().indices());
+        if (vertices_revision == frame.vertices_revision()) continue;
+        const auto vertices = frame.dome().vertices(screen);
+        mesh.update({reinterpret_cast<const float*>(vertices.data()), vertices.size_bytes() / sizeof(float)});
     }
     triangles_revision = frame.triangles_revision();
     vertices_revision = frame.vertices_revision();
 }
 
-void Renderer::Impl::prepare_points_and_discs() {
+void Renderer::Impl::prepare_points_and_discs(std::size_t screen) {
     const Plan& plan = frame.plan();
-    const auto tone32 = eye::single_precision(frame.tone());
+    const shaders64::ToneParameters& tone = frame.tone(screen);
+    const auto tone32 = eye::single_precision(tone);
+    points_screen = screen;
     report.stars_drawn = 0;
     if (plan.needs(Pass::kStars)) {
-        stars.prepare(scene, frame.air(), frame.light(), frame.tone(), plan.star_limit_mag);
+        stars.prepare(scene, frame.air(), frame.light(), tone, plan.star_limit_mag);
         report.stars_drawn = stars.count();
     }
     if (plan.needs(Pass::kCorona))
         corona.prepare(scene, frame.air(), frame.light(), pixel_rad, tone32, plan.corona_share);
     if (plan.needs(Pass::kSunDisc))
         sun_disc.prepare(scene, frame.air(), frame.light(), pixel_rad, tone32, display.dither);
-    if (plan.needs(Pass::kMoonDisc)) prepare_moon();
-    if (plan.needs(Pass::kSunGlare)) sun_glare.prepare(frame.sun_glare(), pixel_rad, display.dither);
-    if (plan.needs(Pass::kMoonGlare)) moon_glare.prepare(frame.moon_glare(), pixel_rad, display.dither);
+    if (plan.needs(Pass::kMoonDisc)) prepare_moon(screen);
+    if (plan.needs(Pass::kSunGlare)) sun_glare.prepare(frame.sun_glare(screen), pixel_rad, display.dither);
+    if (plan.needs(Pass::kMoonGlare)) moon_glare.prepare(frame.moon_glare(screen), pixel_rad, display.dither);
 }
 
-void Renderer::Impl::prepare_moon() {
-    moon_disc.prepare(scene, frame.air(), frame.light(), pixel_rad, eye::single_precision(frame.tone()),
-                      display.dither, moon_fovea(scene, frame.air(), frame.light(), display, frame.tone()),
-                      frame.moon_glare().limb());
+void Renderer::Impl::prepare_moon(std::size_t screen) {
+    moon_disc.prepare(
+        scene, frame.air(), frame.light(), pixel_rad, eye::single_precision(frame.tone(screen)),
+        display.dither,
+        moon_fovea(scene, frame.air(), frame.light(), frame.display(screen), frame.tone(screen)),
+        frame.moon_glare(screen).limb());
 }
 
-void Renderer::Impl::draw_dome(const Channel& channel, const glm::dmat4& clip_from_enu) {
+void Renderer::Impl::draw_dome(std::size_t index, const glm::dmat4& clip_from_enu) {
+    const Channel& channel = channels[index];
     const glm::dmat4 clip_from_mesh = clip_from_enu * frame.enu_from_mesh();
     dome_program.use();
     dome_program.set(dome_clip, glm::mat4{clip_from_mesh});
     dome_program.set(dome_half_size, 0.5F * glm::vec2{channel.width_px, channel.height_px});
     dome_program.set(dome_share, static_cast<float>(frame.dome().share()));
     for (const IndexRange& range : frame.dome().visible(clip_from_mesh))
-        dome_mesh.draw_triangles(range.first, range.count);
+        dome_meshes[screens.of_channel[index]].draw_triangles(range.first, range.count);
 }
 
 void Renderer::Impl::refresh_deferred() {
-    deferred->prepare(scene, frame.plan(), frame.tables(), frame.light(), eye::single_precision(frame.tone()),
-                      display.dither);
+    deferred->prepare(scene, frame.plan(), frame.tables(), frame.light(), display.dither);
 }
 
 Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality) {
@@ -189,7 +202,7 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     m.pixel_rad = finest_pixel_rad(m.channels, scene.channel_views());
     m.frame.prepare(scene, m.pixel_rad);
     m.upload_dome();
-    m.prepare_points_and_discs();
+    m.prepare_points_and_discs(0);
     if (m.deferred) m.refresh_deferred();
     m.report.plan = m.frame.plan();
     m.report.adaptation_cd_m2 = m.frame.adaptation_cd_m2();
@@ -205,9 +218,12 @@ void Renderer::draw(std::size_t channel) {
     const Plan& plan = m.report.plan;
     const glm::dmat4 clip_from_enu = clip_from_view(view.frustum, 1.0, 1.0) * glm::dmat4{view.view_from_enu};
 
+    // Points and discs are prepared for one screen at a time: rigs of like screens pay for it once a frame.
+    if (m.points_screen != m.screens.of_channel[channel])
+        m.prepare_points_and_discs(m.screens.of_channel[channel]);
     m.targets[channel].bind();
     gl::set_blend(gl::Blend::kReplace);
-    m.draw_dome(m.channels[channel], clip_from_enu);
+    m.draw_dome(channel, clip_from_enu);
 
     if (plan.needs(Pass::kStars)) {
         gl::set_blend(gl::Blend::kAdd);
@@ -246,7 +262,7 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
     }
     m.targets[channel].bind();
     gl::set_blend(gl::Blend::kReplace);
-    m.deferred->draw(view, input);
+    m.deferred->draw(view, input, eye::single_precision(m.frame.tone(m.screens.of_channel[channel])));
     gl::finish();
 }
 
@@ -258,8 +274,8 @@ std::span<const Channel> Renderer::channels() const noexcept {
     return impl_->channels;
 }
 
-glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu) const {
-    return impl_->frame.exact_colour(direction_enu);
+glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu, std::size_t channel) const {
+    return impl_->frame.exact_colour(direction_enu, impl_->screens.of_channel[channel]);
 }
 
 glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu, double distance_m,

@@ -26,44 +26,109 @@ bool scale_moved(const glm::vec3& a, const glm::vec3& b) {
     return glm::any(glm::greaterThan(glm::abs(a - b), kLightStep * glm::max(a, b)));
 }
 
+ClippedLight clipped_light(const std::array<double, eye::kProbeCount>& probes_cd_m2,
+                           const shaders64::ToneParameters& tone) {
+    ClippedLight clipped;
+    for (const double luminance : probes_cd_m2) {
+        const double white_parts = shaders64::display_linear(glm::dvec3{luminance}, tone).y - tone.ambient;
+        clipped.below_black += white_parts <= 0.0 ? 1.0 : 0.0;
+        clipped.above_white += white_parts > 1.0 ? 1.0 : 0.0;
+    }
+    clipped.below_black /= static_cast<double>(eye::kProbeCount);
+    clipped.above_white /= static_cast<double>(eye::kProbeCount);
+    return clipped;
+}
+
 }  // namespace
 
-SkyFrame::SkyFrame(const DisplaySettings& display, const Quality& quality)
-    : display_(display), quality_(quality), tables_(direction_table_size(quality)) {}
+SkyFrame::SkyFrame(const DisplaySettings& display, const Quality& quality, std::span<const Screen> screens)
+    : displays_(std::max<std::size_t>(screens.size(), 1), display),
+      quality_(quality),
+      tables_(direction_table_size(quality)),
+      sun_glares_(displays_.size()),
+      moon_glares_(displays_.size()),
+      dome_(displays_.size()),
+      tones_(displays_.size()),
+      clipped_(displays_.size()) {
+    for (std::size_t i = 0; i < screens.size(); ++i)
+        displays_[i] = before_screen(display, screens[i]);
+}
 
 void SkyFrame::prepare(const Scene& scene, double pixel_rad) {
     const sky::RefractionRow refraction = tables_.refraction(scene);
     plan_ = make_plan(scene, tables_.held(scene), refraction, quality_);
     tables_.update(scene, plan_);
     light_ = tables_.light(scene, plan_, refraction);
-    adapt(scene, pixel_rad);
+    adapt(scene);
+    tone_screens(scene, pixel_rad);
     dazzle(scene);
     refresh_dome(pixel_rad);
     tell_dome();
 }
 
-void SkyFrame::adapt(const Scene& scene, double pixel_rad) {
-    std::array<double, eye::kProbeCount> luminance{};
-    double darkest_sky = std::numeric_limits<double>::infinity();
+void SkyFrame::adapt(const Scene& scene) {
+    eye::LuminanceMean all;
     for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
         const eye::ProbeDirection& probe = eye::probe_directions()[i];
         const double elevation =
             std::min(light_.horizon_elevation_rad + probe.above_horizon_rad, kZenith_rad);
-        luminance[i] = static_cast<double>(
-            shaders32::luminance_709(light_.rgb_cd_m2(elevation, probe.azimuth_rad, Side::kByElevation)));
-        if (probe.above_horizon_rad > 0.0) darkest_sky = std::min(darkest_sky, luminance[i]);
+        probes_cd_m2_[i] = luminance_cd_m2(elevation, probe.azimuth_rad);
+        all.add(probes_cd_m2_[i]);
     }
-    const double now_cd_m2 =
-        adaptation_.update(eye::adaptation_target_cd_m2(luminance), scene.time_s, tables_.jumped(), display_);
-    tone_ = eye::tone_parameters(display_, now_cd_m2);
-    plan_stars(plan_, scene, darkest_sky, half_code_mag(darkest_sky, tone_, pixel_rad));
+    const DisplaySettings& eye = displays_.front();
+    if (eye.adapt_to != AdaptationSource::kSky) {
+        eye::LuminanceMean seen;
+        for (const ChannelView& view : scene.channel_views()) {
+            if (!has_area(view.frustum)) continue;
+            for (const eye::ViewProbe& probe : eye::view_probes(view)) {
+                const Horizontal at = horizontal_of(probe.direction_enu);
+                seen.add(luminance_cd_m2(at.elevation_rad, at.azimuth_rad), probe.solid_angle_sr);
+            }
+        }
+        if (!seen.empty()) all = seen;
+    }
+    const double wanted_cd_m2 = eye.fixed_adaptation_cd_m2 > 0.0              ? eye.fixed_adaptation_cd_m2
+                                : eye.adapt_to == AdaptationSource::kViewMean ? all.mean_cd_m2()
+                                                                              : all.log_average_cd_m2();
+    adaptation_.update(wanted_cd_m2, scene.time_s, tables_.jumped(), eye);
+}
+
+void SkyFrame::tone_screens(const Scene& scene, double pixel_rad) {
+    double darkest_sky = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
+        if (eye::probe_directions()[i].above_horizon_rad > 0.0)
+            darkest_sky = std::min(darkest_sky, probes_cd_m2_[i]);
+    }
+    // The faintest star that any screen shows.
+    double faintest_mag = -std::numeric_limits<double>::infinity();
+    for (std::size_t screen = 0; screen < tones_.size(); ++screen) {
+        tones_[screen] = eye::tone_parameters(displays_[screen], adaptation_.luminance_cd_m2());
+        clipped_[screen] = clipped_light(probes_cd_m2_, tones_[screen]);
+        faintest_mag = std::max(faintest_mag, half_code_mag(darkest_sky, tones_[screen], pixel_rad));
+    }
+    plan_stars(plan_, scene, darkest_sky, faintest_mag);
+}
+
+double SkyFrame::luminance_cd_m2(double elevation_rad, double azimuth_rad) const {
+    return static_cast<double>(
+        shaders32::luminance_709(light_.rgb_cd_m2(elevation_rad, azimuth_rad, Side::kByElevation)));
 }
 
 void SkyFrame::dazzle(const Scene& scene) {
-    sun_glare_.update(render::sun_glare(scene, tables_.air(), light_), light_, display_, tone_);
-    moon_glare_.update(render::moon_glare(scene, tables_.air(), light_), light_, display_, tone_);
-    plan_glare(plan_, Pass::kSunGlare, display_.glare && scene.sun.enabled, sun_glare_.reach_rad());
-    plan_glare(plan_, Pass::kMoonGlare, display_.glare && scene.moon.enabled, moon_glare_.reach_rad());
+    const GlareSource sun = render::sun_glare(scene, tables_.air(), light_);
+    const GlareSource moon = render::moon_glare(scene, tables_.air(), light_);
+    // As far as any screen shows it.
+    double sun_reach_rad = 0.0;
+    double moon_reach_rad = 0.0;
+    for (std::size_t screen = 0; screen < displays_.size(); ++screen) {
+        sun_glares_[screen].update(sun, light_, displays_[screen], tones_[screen]);
+        moon_glares_[screen].update(moon, light_, displays_[screen], tones_[screen]);
+        sun_reach_rad = std::max(sun_reach_rad, sun_glares_[screen].reach_rad());
+        moon_reach_rad = std::max(moon_reach_rad, moon_glares_[screen].reach_rad());
+    }
+    const bool wanted = displays_.front().glare;
+    plan_glare(plan_, Pass::kSunGlare, wanted && scene.sun.enabled, sun_reach_rad);
+    plan_glare(plan_, Pass::kMoonGlare, wanted && scene.moon.enabled, moon_reach_rad);
 }
 
 void SkyFrame::refresh_dome(double pixel_rad) {
@@ -82,7 +147,7 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         std::abs(adaptation - shaded_.adaptation_cd_m2) > kAdaptationStep * shaded_.adaptation_cd_m2;
     mesh_azimuth_rad_ = wanted.azimuth_rad;
     if (lay) {
-        bend_.measure(light_, tone_, mesh_azimuth_rad_, pixel_rad);
+        bend_.measure(light_, tones_, mesh_azimuth_rad_, pixel_rad);
         dome_.lay_out(wanted, bend_, plan_dome(bend_, at_once ? DomeBend::kLeast : dome_.size(), quality_));
     }
     if (replaced || scaled) {
@@ -96,12 +161,13 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         shaded_.moon_from_sun_rad = wanted.second_azimuth_rad;
     }
     if (replaced || scaled || toned) {
-        dome_.encode(tone_);
+        dome_.encode(tones_);
         shaded_.adaptation_cd_m2 = adaptation;
         ++vertices_revision_;
     }
     if (lay) {
-        dome_error_codes_ = dome_.split_quads(light_, mesh_azimuth_rad_, tone_);
+        dome_error_codes_ =
+            dome_.triangulate(light_, mesh_azimuth_rad_, tones_.front(), quality_.error_codes);
         ++triangles_revision_;
     }
     dome_.step();
@@ -113,10 +179,10 @@ void SkyFrame::tell_dome() noexcept {
     planned.error_codes = dome_error_codes_;
 }
 
-glm::dvec3 SkyFrame::exact_colour(const glm::dvec3& direction_enu) const {
+glm::dvec3 SkyFrame::exact_colour(const glm::dvec3& direction_enu, std::size_t screen) const {
     const Horizontal at = horizontal_of(direction_enu);
     const glm::vec3 rgb = light_.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation);
-    return shaders64::shown(glm::dvec3{rgb}, tone_);
+    return shaders64::shown(glm::dvec3{rgb}, tones_[screen]);
 }
 
 }  // namespace skyig::render

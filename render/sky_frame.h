@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "render/display.h"
 #include "render/dome.h"
@@ -14,9 +16,16 @@
 
 namespace skyig::render {
 
+/// Parts of the probed directions, 0..1.
+struct ClippedLight {
+    double below_black = 0.0;  ///< shown as code 0
+    double above_white = 0.0;  ///< asks for more than full white, before the shoulder
+};
+
 class SkyFrame {
   public:
-    SkyFrame(const DisplaySettings& display, const Quality& quality);
+    /// \param screens  different ones that the light is toned for; none: that of `display`
+    SkyFrame(const DisplaySettings& display, const Quality& quality, std::span<const Screen> screens = {});
 
     /// \param pixel_rad  angle of the finest pixel of the rig: edges are softened over it. Allocates nothing
     /// in steady state. The first call builds all tables and may throw std::bad_alloc; later ones do not
@@ -26,12 +35,21 @@ class SkyFrame {
     // All of this is the prepared frame's.
     [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
     [[nodiscard]] const SkyLight& light() const noexcept { return light_; }
-    [[nodiscard]] const shaders64::ToneParameters& tone() const noexcept { return tone_; }
+    [[nodiscard]] const shaders64::ToneParameters& tone(std::size_t screen = 0) const noexcept {
+        return tones_[screen];
+    }
     [[nodiscard]] double adaptation_cd_m2() const noexcept { return adaptation_.luminance_cd_m2(); }
     [[nodiscard]] const sky::AirTables& air() const noexcept { return tables_.air(); }
     [[nodiscard]] const LightTables& tables() const noexcept { return tables_; }
-    [[nodiscard]] const Glare& sun_glare() const noexcept { return sun_glare_; }
-    [[nodiscard]] const Glare& moon_glare() const noexcept { return moon_glare_; }
+    [[nodiscard]] const DisplaySettings& display(std::size_t screen = 0) const noexcept {
+        return displays_[screen];
+    }
+    [[nodiscard]] const Glare& sun_glare(std::size_t screen = 0) const noexcept {
+        return sun_glares_[screen];
+    }
+    [[nodiscard]] const Glare& moon_glare(std::size_t screen = 0) const noexcept {
+        return moon_glares_[screen];
+    }
     [[nodiscard]] Dome& dome() noexcept { return dome_; }
     [[nodiscard]] const Dome& dome() const noexcept { return dome_; }
     /// From the dome's mesh, (direction, 1), to the scene.
@@ -43,27 +61,36 @@ class SkyFrame {
     [[nodiscard]] std::uint64_t triangles_revision() const noexcept { return triangles_revision_; }
     [[nodiscard]] std::uint64_t vertices_revision() const noexcept { return vertices_revision_; }
 
+    /// What a screen cannot show of the directions that the eye adapts to.
+    [[nodiscard]] const ClippedLight& clipped(std::size_t screen = 0) const noexcept {
+        return clipped_[screen];
+    }
+
     /// The colour that the frame's light and tone curve give for one direction, before dither.
-    [[nodiscard]] glm::dvec3 exact_colour(const glm::dvec3& direction_enu) const;
+    [[nodiscard]] glm::dvec3 exact_colour(const glm::dvec3& direction_enu, std::size_t screen = 0) const;
 
   private:
-    void adapt(const Scene& scene, double pixel_rad);
+    void adapt(const Scene& scene);
+    void tone_screens(const Scene& scene, double pixel_rad);
+    [[nodiscard]] double luminance_cd_m2(double elevation_rad, double azimuth_rad) const;
     void dazzle(const Scene& scene);
     void refresh_dome(double pixel_rad);
     void tell_dome() noexcept;
 
-    DisplaySettings display_;
+    std::vector<DisplaySettings> displays_;  // the same eye before each screen
     Quality quality_;
     LightTables tables_;
     eye::Adaptation adaptation_;
-    Glare sun_glare_;
-    Glare moon_glare_;
+    std::vector<Glare> sun_glares_;  // one a screen
+    std::vector<Glare> moon_glares_;
     DomeBend bend_;
     Dome dome_;
 
     Plan plan_;
     SkyLight light_;
-    shaders64::ToneParameters tone_{};
+    std::array<double, eye::kProbeCount> probes_cd_m2_{};
+    std::vector<shaders64::ToneParameters> tones_;
+    std::vector<ClippedLight> clipped_;
     double mesh_azimuth_rad_ = 0.0;
     double dome_error_codes_ = 0.0;
     std::uint64_t triangles_revision_ = 0;

@@ -19,11 +19,28 @@ ephemeris::UtcClockTime start_time(const config::Start& start, const Clock& cloc
                                               static_cast<std::int32_t>(now_ns % kNsPerSecond));
 }
 
+namespace {
+
+render::Screen screen(const config::Screen& settings) noexcept {
+    render::Screen screen;
+    screen.max_luminance_cd_m2 = settings.max_luminance_cd_m2;
+    screen.adaptation_luminance_cd_m2 = settings.adaptation_cd_m2;
+    screen.srgb = !settings.gamma.has_value();
+    screen.gamma = settings.gamma.value_or(screen.gamma);
+    screen.black_cd_m2 = settings.black_cd_m2;
+    screen.reflected_cd_m2 = settings.reflected_cd_m2;
+    return screen;
+}
+
+}  // namespace
+
 std::vector<render::Channel> render_channels(const config::Config& config) {
     std::vector<render::Channel> channels;
     channels.reserve(config.channels.size());
-    for (const config::Channel& channel : config.channels)
+    for (const config::Channel& channel : config.channels) {
         channels.push_back({channel.name, channel.width_px, channel.height_px});
+        if (channel.display) channels.back().screen = screen(*channel.display);
+    }
     return channels;
 }
 
@@ -119,18 +136,45 @@ render::Quality quality(const config::Config& config) {
     return quality;
 }
 
+namespace {
+
+static_assert(
+    static_cast<int>(config::ToneOperator::kHybrid) == static_cast<int>(render::ToneOperator::kHybrid) &&
+        static_cast<int>(config::ToneOperator::kTumblin) ==
+            static_cast<int>(render::ToneOperator::kTumblin) &&
+        static_cast<int>(config::ToneOperator::kTumblinSafe) ==
+            static_cast<int>(render::ToneOperator::kTumblinSafe) &&
+        static_cast<int>(config::ToneOperator::kReinhard) ==
+            static_cast<int>(render::ToneOperator::kReinhard) &&
+        static_cast<int>(config::ToneOperator::kWard) == static_cast<int>(render::ToneOperator::kWard) &&
+        static_cast<int>(config::ToneOperator::kLinear) == static_cast<int>(render::ToneOperator::kLinear),
+    "one order of operators in settings and eye");
+static_assert(static_cast<int>(config::AdaptationSource::kSky) ==
+                      static_cast<int>(render::AdaptationSource::kSky) &&
+                  static_cast<int>(config::AdaptationSource::kView) ==
+                      static_cast<int>(render::AdaptationSource::kView) &&
+                  static_cast<int>(config::AdaptationSource::kViewMean) ==
+                      static_cast<int>(render::AdaptationSource::kViewMean) &&
+                  static_cast<int>(config::AdaptationPace::kPhysiological) ==
+                      static_cast<int>(render::AdaptationPace::kPhysiological),
+              "one order of ways to adapt in settings and eye");
+
+}  // namespace
+
 render::DisplaySettings display_settings(const config::Config& config) {
-    render::DisplaySettings settings;
-    settings.max_luminance_cd_m2 = config.display.max_luminance_cd_m2;
-    settings.adaptation_luminance_cd_m2 = config.display.adaptation_cd_m2;
-    settings.srgb = !config.display.gamma.has_value();
-    settings.gamma = config.display.gamma.value_or(settings.gamma);
+    render::DisplaySettings settings = render::before_screen({}, screen(config.display));
+    const config::Eye& eye = config.eye;
     settings.dither = config.display.dither;
-    settings.tone = config.eye.tone == config::ToneOperator::kLinear ? render::ToneOperator::kLinear
-                                                                     : render::ToneOperator::kHybrid;
-    settings.adapt_up_s = config.eye.adapt_up_s;
-    settings.adapt_down_s = config.eye.adapt_down_s;
-    settings.glare = config.eye.glare;
+    settings.tone = static_cast<render::ToneOperator>(eye.tone);
+    settings.highlight_room = eye.highlight_room;
+    settings.shoulder = eye.shoulder;
+    settings.night_colours = eye.night_colours;
+    settings.adapt_to = static_cast<render::AdaptationSource>(eye.adapt_to);
+    settings.fixed_adaptation_cd_m2 = eye.adaptation_cd_m2.value_or(0.0);
+    settings.adapt_pace = static_cast<render::AdaptationPace>(eye.pace);
+    settings.adapt_up_s = eye.adapt_up_s;
+    settings.adapt_down_s = eye.adapt_down_s;
+    settings.glare = eye.glare;
     return settings;
 }
 

@@ -14,6 +14,7 @@
 #include "clients/skyig/options.h"
 #include "clients/skyig/status/http_get.h"
 #include "clients/skyig/still/still_command.h"
+#include "clients/skyig/tone_command.h"
 #include "clients/skyig/validators.h"
 #include "protocol/transport/endpoint.h"
 #include "render/sky_settings.h"
@@ -23,8 +24,8 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 11> kVerbs{"host",   "shot",   "plan", "bench",  "ephem", "decode",
-                                                  "replay", "record", "sky",  "status", "top"};
+constexpr std::array<std::string_view, 12> kVerbs{"host",   "shot",   "plan", "bench",  "ephem", "decode",
+                                                  "replay", "record", "sky",  "status", "top",   "tone"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -354,6 +355,7 @@ struct Verbs {
     StatusOptions status;
     StatusOptions top;
     SkyOptions sky;
+    ToneOptions tone;
     std::string order = "little";
     std::string horizon = "almanac";
 };
@@ -384,6 +386,7 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
         ->check(finite_in(0.1, 3600.0));
     add_sky(*app.add_subcommand("sky", "luminance and colour of the sky for a table of directions"),
             verbs.sky);
+    add_tone(app, verbs.tone);
 }
 
 void require_one_body(const EphemOptions& options) {
@@ -406,6 +409,7 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     if (app.got_subcommand("status")) invocation.options = verbs.status;
     if (app.got_subcommand("top")) invocation.options = verbs.top;
     if (app.got_subcommand("sky")) invocation.options = verbs.sky;
+    if (app.got_subcommand("tone")) invocation.options = verbs.tone;
 }
 
 std::string usage_error(const char* what, const char* verb) {

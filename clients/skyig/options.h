@@ -183,10 +183,28 @@ struct SkyOptions {
     std::string out_path;
 };
 
+/// skyig tone: luminances through the shader's tone curve.
+struct ToneOptions {
+    /// Of render::kToneOperatorNames, already checked.
+    std::string tone_operator = "hybrid";
+    /// Empty = each luminance is adapted to itself.
+    std::optional<double> adaptation_cd_m2;
+    double display_max_cd_m2 = 350.0;
+    /// Half of full white if not given.
+    std::optional<double> display_adaptation_cd_m2;
+    double ambient_cd_m2 = 0.0;
+    /// The sRGB curve if not given.
+    std::optional<double> gamma;
+    /// All that a picture does to light, not the operator alone.
+    bool picture = false;
+    /// >= 0, may be infinite.
+    std::vector<double> luminance_cd_m2;
+};
+
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
     std::variant<std::monostate, HostOptions, ShotOptions, PlanOptions, BenchOptions, EphemOptions,
-                 DecodeOptions, ReplayOptions, RecordOptions, SkyOptions, StatusOptions>
+                 DecodeOptions, ReplayOptions, RecordOptions, SkyOptions, StatusOptions, ToneOptions>
         options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)

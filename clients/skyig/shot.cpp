@@ -57,8 +57,8 @@ Picture write_picture(server::GlPainter& painter, const ShotOptions& options, co
                                 static_cast<std::size_t>(picture.height_px) * 4);
     painter.read_back(channel, rgba);
     std::string error;
-    if (!render::output::write_png(picture.path, picture.width_px, picture.height_px, rgba, error,
-                                   config.display.gamma))
+    const std::optional<double> gamma = settings.display ? settings.display->gamma : config.display.gamma;
+    if (!render::output::write_png(picture.path, picture.width_px, picture.height_px, rgba, error, gamma))
         throw std::runtime_error(error);
     return picture;
 }

@@ -3,7 +3,10 @@
 
 #include <array>
 #include <cstddef>
+#include <glm/glm.hpp>
+#include <span>
 
+#include "render/channel.h"
 #include "render/display.h"
 
 namespace skyig::render::eye {
@@ -21,12 +24,45 @@ inline constexpr std::size_t kProbeCount = 84;
 /// are left out by the caller.
 [[nodiscard]] const std::array<ProbeDirection, kProbeCount>& probe_directions() noexcept;
 
-/// Log-average of luminances, cd/m2, but at least a third of their mean: where most of the view is black
-/// (orbit, late twilight) the eye follows the part that is not. Never below 1e-5; what is not finite counts
-/// as dark.
-[[nodiscard]] double adaptation_target_cd_m2(const std::array<double, kProbeCount>& luminance_cd_m2) noexcept;
+/// A direction that a channel sees, and how much of the view it stands for.
+struct ViewProbe {
+    glm::dvec3 direction_enu;
+    double solid_angle_sr = 0.0;
+};
 
-/// First-order approach of the logarithm, by scene time.
+inline constexpr std::size_t kViewProbeColumns = 8;
+inline constexpr std::size_t kViewProbeRows = 6;
+
+/// A channel's probes: places in its image plane, the same in every frame, whatever its resolution.
+/// Precondition: has_area(view.frustum).
+[[nodiscard]] std::array<ViewProbe, kViewProbeColumns * kViewProbeRows> view_probes(
+    const ChannelView& view) noexcept;
+
+/// Means of luminances, cd/m2. What is not finite or negative counts as dark.
+class LuminanceMean {
+  public:
+    void add(double luminance_cd_m2, double weight = 1.0) noexcept;
+
+    [[nodiscard]] bool empty() const noexcept { return !(weight_ > 0.0); }
+    /// Log-average, but at least a third of the mean: where most of the view is black (orbit, late twilight)
+    /// the eye follows the part that is not. Never below 1e-5.
+    [[nodiscard]] double log_average_cd_m2() const noexcept;
+    /// Arithmetic; never below 1e-5.
+    [[nodiscard]] double mean_cd_m2() const noexcept;
+
+  private:
+    double weight_ = 0.0;
+    double sum_ = 0.0;
+    double sum_of_logs_ = 0.0;
+};
+
+/// Both states as one: the luminance that a settled eye has the same threshold at, as log10. The more
+/// sensitive of cones and rods decides, so that by day the cones' state counts and in the dark, after some
+/// minutes, that of the rods.
+[[nodiscard]] double equivalent_log_adaptation(double log_cones, double log_rods) noexcept;
+
+/// First-order approach of the logarithm, by scene time. kPhysiological: cones and rods each have a state,
+/// with 0.1 and 0.4 s towards light and the recovery of their pigments, 110 and 400 s, towards the dark.
 class Adaptation {
   public:
     /// \param target_cd_m2  > 0; \param time_s  scene time. The first call, a step backwards, and a step of
@@ -41,6 +77,8 @@ class Adaptation {
   private:
     bool started_ = false;
     double luminance_cd_m2_ = 1.0;
+    double log_cones_ = 0.0;
+    double log_rods_ = 0.0;
     double time_s_ = 0.0;
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/eye/thresholds.h"
+
 namespace skyig::render::eye {
 
 namespace {
@@ -19,22 +21,22 @@ double beta(double log_l) {
 
 const double kLogLambert = std::log10(std::numbers::pi * 1e-4);
 
-ToneCurve tumblin(double log_world, double log_display) {
-    const double alpha_display = alpha(log_display);
-    const double q = alpha(log_world) / alpha_display;
-    return {(beta(log_world) - beta(log_display)) / alpha_display + (q - 1.0) * kLogLambert, q};
+constexpr double kDarkest_cd_m2 = 1e-6;
+constexpr double kDimmestScreen_cd_m2 = 0.1;
+
+// Of Reinhard et al. (2002): what the log-average is shown as, and what is shown as white, in parts of white
+// before it is compressed.
+constexpr double kKey = 0.18;
+constexpr double kReinhardWhite = 4.0;
+
+double log_of(double adaptation_cd_m2) {
+    return std::log10(std::max(adaptation_cd_m2, kDarkest_cd_m2));
 }
 
-// Log10 of the threshold luminance difference (Ferwerda et al. 1996, equations 1 and 2).
-double log_threshold_cones(double l) {
-    if (l <= -2.6) return -0.72;
-    if (l >= 1.9) return l - 1.255;
-    return std::pow(0.249 * l + 0.65, 2.7) - 0.72;
-}
-double log_threshold_rods(double l) {
-    if (l <= -3.94) return -2.86;
-    if (l >= -1.44) return l - 0.395;
-    return std::pow(0.405 * l + 1.6, 2.18) - 2.86;
+ToneCurve tumblin(double log_world, double log_display) {
+    const double alpha_display = alpha(log_display);
+    const double q = std::max(alpha(log_world), 0.0) / alpha_display;
+    return {(beta(log_world) - beta(log_display)) / alpha_display + (q - 1.0) * kLogLambert, q};
 }
 
 // 0 at 0.01 cd/m2 and below, 1 at 1 cd/m2 and above.
@@ -51,53 +53,80 @@ ToneCurve hybrid(double log_world, double log_display) {
     return {night.p + (bright.p - night.p) * day, night.q + (bright.q - night.q) * day};
 }
 
-constexpr double kDarkest_cd_m2 = 1e-6;
+// Ward (1994): a threshold difference in the world is one on the screen.
+double ward_gain(const Screen& screen, double adaptation_cd_m2) {
+    const double display_term = 1.219 + std::pow(0.5 * screen.max_luminance_cd_m2, 0.4);
+    return std::pow(display_term / (1.219 + std::pow(adaptation_cd_m2, 0.4)), 2.5);
+}
 
 }  // namespace
 
 ToneCurve tone_curve(const DisplaySettings& display, double adaptation_cd_m2) noexcept {
-    const double log_world = std::log10(std::max(adaptation_cd_m2, kDarkest_cd_m2));
-    if (display.tone == ToneOperator::kLinear) {
-        return {std::log10(0.18 * display.max_luminance_cd_m2) - log_world, 1.0};
+    const double log_world = log_of(adaptation_cd_m2);
+    const double log_display = std::log10(std::max(display.adaptation_luminance_cd_m2, kDimmestScreen_cd_m2));
+    switch (display.tone) {
+        case ToneOperator::kTumblin:
+            return tumblin(std::max(log_world, std::log10(kTumblinZero_cd_m2)), log_display);
+        case ToneOperator::kTumblinSafe:
+            return tumblin(std::log10(std::pow(10.0, log_world) + 1e-3), log_display);
+        case ToneOperator::kWard:
+            return {std::log10(ward_gain(display, std::pow(10.0, log_world))), 1.0};
+        case ToneOperator::kReinhard:
+        case ToneOperator::kLinear:
+            return {std::log10(kKey * display.max_luminance_cd_m2) - log_world, 1.0};
+        case ToneOperator::kHybrid:
+            break;
     }
-    return hybrid(log_world, std::log10(std::max(display.adaptation_luminance_cd_m2, 0.1)));
+    return hybrid(log_world, log_display);
 }
 
-double highlight_room(double adaptation_cd_m2) noexcept {
-    // Chosen by looking at dawn, noon, dusk and 12 km: less burns the horizon out, more dims the zenith.
+double highlight_room(double day_room, double adaptation_cd_m2) noexcept {
     // Spread over five decades, so that brighter fields are still shown brighter.
-    constexpr double kDayRoom = 0.45;
-    const double t =
-        std::clamp((std::log10(std::max(adaptation_cd_m2, kDarkest_cd_m2)) + 3.0) / 5.0, 0.0, 1.0);
-    return kDayRoom * t * t * (3.0 - 2.0 * t);
+    const double t = std::clamp((log_of(adaptation_cd_m2) + 3.0) / 5.0, 0.0, 1.0);
+    return day_room * t * t * (3.0 - 2.0 * t);
 }
 
 double point_gain(const DisplaySettings& display, double adaptation_cd_m2) noexcept {
     const double adaptation = std::max(adaptation_cd_m2, kDarkest_cd_m2);
-    const double display_term = 1.219 + std::pow(0.5 * display.max_luminance_cd_m2, 0.4);
-    const double ward = std::pow(display_term / (1.219 + std::pow(adaptation, 0.4)), 2.5);
     const ToneCurve curve = tone_curve(display, adaptation);
     const double field = std::pow(10.0, curve.p + (curve.q - 1.0) * std::log10(adaptation));
-    return display.tone == ToneOperator::kLinear ? field : std::sqrt(ward * field);
+    if (display.tone == ToneOperator::kLinear || display.tone == ToneOperator::kReinhard) return field;
+    return std::sqrt(ward_gain(display, adaptation) * field);
 }
 
 shaders64::ToneParameters tone_parameters(const DisplaySettings& display, double adaptation_cd_m2) noexcept {
     ToneCurve curve = tone_curve(display, adaptation_cd_m2);
-    if (display.tone == ToneOperator::kHybrid) curve.p -= highlight_room(adaptation_cd_m2);
+    if (display.tone == ToneOperator::kHybrid)
+        curve.p -= highlight_room(display.highlight_room, adaptation_cd_m2);
     shaders64::ToneParameters tone{};
     tone.log2_gain = curve.p / std::numbers::ln2 * std::numbers::ln10;
     tone.exponent = curve.q;
-    tone.photopic = shaders64::photopic_share(adaptation_cd_m2);
+    if (display.tone == ToneOperator::kReinhard) {
+        tone.compression = 1.0;
+        tone.burn = 1.0 / (kReinhardWhite * kReinhardWhite);
+    }
+    tone.photopic = display.night_colours ? shaders64::photopic_share(adaptation_cd_m2) : 1.0;
     tone.point_gain = point_gain(display, adaptation_cd_m2);
     tone.inv_display_max = 1.0 / display.max_luminance_cd_m2;
+    tone.ambient = (display.black_cd_m2 + display.reflected_cd_m2) / display.max_luminance_cd_m2;
+    tone.shoulder = display.shoulder;
     tone.encode_power = display.srgb ? 0.0 : 1.0 / display.gamma;
     return tone;
 }
 
 shaders32::ToneParameters single_precision(const shaders64::ToneParameters& tone) noexcept {
     return {static_cast<float>(tone.log2_gain),       static_cast<float>(tone.exponent),
+            static_cast<float>(tone.compression),     static_cast<float>(tone.burn),
             static_cast<float>(tone.photopic),        static_cast<float>(tone.point_gain),
-            static_cast<float>(tone.inv_display_max), static_cast<float>(tone.encode_power)};
+            static_cast<float>(tone.inv_display_max), static_cast<float>(tone.ambient),
+            static_cast<float>(tone.shoulder),        static_cast<float>(tone.encode_power)};
+}
+
+DisplaySettings operator_alone(DisplaySettings display) noexcept {
+    display.highlight_room = 0.0;
+    display.shoulder = 1.0;
+    display.night_colours = false;
+    return display;
 }
 
 }  // namespace skyig::render::eye

@@ -1,4 +1,4 @@
-// How world luminance becomes display luminance for one state of adaptation: log10 Ld = p + q log10 L, cd/m2.
+// How world luminance becomes display luminance for one state of adaptation.
 #pragma once
 
 #include "render/display.h"
@@ -6,30 +6,43 @@
 
 namespace skyig::render::eye {
 
+/// log10 Ld = p + q log10 L, cd/m2.
 struct ToneCurve {
     double p = 0.0;
     double q = 1.0;
 };
 
+/// tumblin has no contrast left at this adaptation luminance, cd/m2, and would turn it over below.
+inline constexpr double kTumblinZero_cd_m2 = 1.5940429e-4;
+
 /// \param adaptation_cd_m2  what the eyes in the world are adapted to, > 0 (values below 1e-6 count as 1e-6)
-/// kHybrid: Tumblin and Rushmeier (1993) at 1 cd/m2 and above; at 0.01 and below the ratio of the thresholds
-/// of Ferwerda et al. (1996), q = 1; p and q blended between. kLinear: the adaptation luminance is shown at
-/// 18 % of white.
+/// - kTumblin: Tumblin and Rushmeier (1993); below kTumblinZero_cd_m2 as there, where all light is shown
+/// alike.
+/// - kTumblinSafe: the same with the world's adaptation raised by 1e-3 cd/m2, so that contrast is left by
+/// night.
+/// - kHybrid: kTumblin at 1 cd/m2 and above; at 0.01 and below the ratio of the thresholds of Ferwerda et al.
+///   (1996), q = 1; p and q blended between.
+/// - kWard: Ward (1994), thresholds match, q = 1.
+/// - kLinear: the adaptation luminance is shown at 18 % of white, q = 1.
+/// - kReinhard: as kLinear; what tone_parameters() adds compresses it.
 [[nodiscard]] ToneCurve tone_curve(const DisplaySettings& display, double adaptation_cd_m2) noexcept;
 
 /// Gain of point sources, display cd/m2 per world cd/m2: between that of a field adapted to itself, which by
 /// night shows every star of the fourth magnitude as white, and Ward's (1994), which leaves the sixth below a
-/// display code: their geometric mean, chosen by looking.
+/// display code: their geometric mean, chosen by looking. kLinear, kReinhard: the field's.
 [[nodiscard]] double point_gain(const DisplaySettings& display, double adaptation_cd_m2) noexcept;
 
-/// log10 of the room that is left on the display for what is brighter than the log-average of the scene: by
-/// day the average is shown this much darker than a uniform field would be; at 0.01 cd/m2 and below there is
-/// none, thresholds match.
-[[nodiscard]] double highlight_room(double adaptation_cd_m2) noexcept;
+/// log10 of the room that kHybrid leaves on the display for what is brighter than the log-average of the
+/// scene: `day_room` by day, none at 1e-3 cd/m2 and below, where thresholds match.
+[[nodiscard]] double highlight_room(double day_room, double adaptation_cd_m2) noexcept;
 
-/// All that the shaders need, in the precision of the GPU and in double: tone_curve() less highlight_room().
+/// All that the shaders need: the operator, less highlight_room(), and the screen.
 [[nodiscard]] shaders64::ToneParameters tone_parameters(const DisplaySettings& display,
                                                         double adaptation_cd_m2) noexcept;
 [[nodiscard]] shaders32::ToneParameters single_precision(const shaders64::ToneParameters& tone) noexcept;
+
+/// The settings with nothing left but operator and screen: no room, no shoulder, no night colours. What the
+/// truth tables hold.
+[[nodiscard]] DisplaySettings operator_alone(DisplaySettings display) noexcept;
 
 }  // namespace skyig::render::eye

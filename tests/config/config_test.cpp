@@ -111,11 +111,19 @@ earth_orientation = "finals2000A.all"
 max_luminance_cd_m2 = 200
 adaptation_cd_m2 = 50
 gamma = 2.4
+black_cd_m2 = 0.2
+reflected_cd_m2 = 1.5
 dither = false
 [quality]
 error_codes = 1.5
 [eye]
-operator = "linear"
+operator = "tumblin-safe"
+highlight_room = 0.2
+shoulder = 0.9
+night_colours = false
+adapt_to = "view-mean"
+adaptation_cd_m2 = 20
+adapt_pace = "physiological"
 adapt_up_s = 1
 adapt_down_s = 20
 glare = false
@@ -166,7 +174,15 @@ group_id = 3
     EXPECT_EQ(c.quality.error_codes, 1.5);
     EXPECT_FALSE(c.quality.error_pct);
     EXPECT_FALSE(c.display.dither);
-    EXPECT_EQ(c.eye.tone, ToneOperator::kLinear);
+    EXPECT_EQ(c.display.black_cd_m2, 0.2);
+    EXPECT_EQ(c.display.reflected_cd_m2, 1.5);
+    EXPECT_EQ(c.eye.tone, ToneOperator::kTumblinSafe);
+    EXPECT_EQ(c.eye.highlight_room, 0.2);
+    EXPECT_EQ(c.eye.shoulder, 0.9);
+    EXPECT_FALSE(c.eye.night_colours);
+    EXPECT_EQ(c.eye.adapt_to, AdaptationSource::kViewMean);
+    EXPECT_EQ(c.eye.adaptation_cd_m2, 20.0);
+    EXPECT_EQ(c.eye.pace, AdaptationPace::kPhysiological);
     EXPECT_EQ(c.eye.adapt_down_s, 20.0);
     EXPECT_FALSE(c.eye.glare);
     ASSERT_EQ(c.channels.size(), 1U);
@@ -227,6 +243,25 @@ TEST(Config, AdaptationFollowsTheDisplayUnlessGiven) {
     const LoadResult result = parse_config(with("[display]\nmax_luminance_cd_m2 = 80"), "site.toml");
     ASSERT_TRUE(result);
     EXPECT_EQ(result.config->display.adaptation_cd_m2, 40.0);
+    EXPECT_FALSE(result.config->channels[0].display);
+}
+
+TEST(Config, ChannelsScreenIsAVariantOfTheUsualOne) {
+    const auto screen_of = [](const std::string& keys) {
+        const LoadResult result =
+            parse_config(with("[display]\nmax_luminance_cd_m2 = 80\ngamma = 2.4\nblack_cd_m2 = 0.5") +
+                             "\n[channel.display]\n" + keys,
+                         "site.toml");
+        EXPECT_TRUE(result) << to_text(result.errors.front());
+        return result ? result.config->channels[0].display : std::nullopt;
+    };
+    EXPECT_EQ(screen_of(""), (Screen{80.0, 40.0, 2.4, 0.5, 0.0}));
+    EXPECT_EQ(screen_of("max_luminance_cd_m2 = 300"), (Screen{300.0, 150.0, 2.4, 0.5, 0.0}));
+    EXPECT_EQ(screen_of("gamma = \"srgb\"\nreflected_cd_m2 = 2"),
+              (Screen{80.0, 40.0, std::nullopt, 0.5, 2.0}));
+    const LoadResult wrong = parse_config(with("") + "\n[channel.display]\ndither = true", "site.toml");
+    ASSERT_FALSE(wrong);
+    EXPECT_EQ(wrong.errors.front().key, "channel[1].display.dither");
 }
 
 TEST(Config, UnknownKeyIsLocatedAndTheNearestIsSuggested) {

@@ -2,6 +2,10 @@
 // counted. That our sources never call malloc themselves is the layering test's business.
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <vector>
+
+#include "render/gl/texture.h"
 #include "render/light_tables.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/support/allocation_count.h"
@@ -38,7 +42,21 @@ class Flight {
 
     [[nodiscard]] int air_passes() const { return air_passes_; }
 
+    /// From now on something stands in every channel, under the frame's air.
+    void put_things_at_half_way() {
+        things_.emplace(64, 64);
+        things_->colour.update(std::vector<float>(std::size_t{64} * 64 * 4, 1000.0F));
+        things_->depth.update(std::vector<float>(std::size_t{64} * 64, 0.5F));
+    }
+
   private:
+    struct Things {
+        Things(int width, int height)
+            : colour(gl::TexelFormat::kRgba32F, width, height),
+              depth(gl::TexelFormat::kR32F, width, height) {}
+        gl::Texture colour;
+        gl::Texture depth;
+    };
     void frame() {
         Scene now = start_;
         now.time_s = 0.03 * frame_;
@@ -48,7 +66,10 @@ class Flight {
             direction_of({sun.elevation_rad + 1e-5 * frame_, sun.azimuth_rad + 1e-5 * frame_});
         air_passes_ += renderer_.prepare(now).plan.needs(Pass::kAirTables) ? 1 : 0;
         for (std::size_t c = 0; c < channels_.size(); ++c) {
-            renderer_.draw(c);
+            if (things_)
+                renderer_.draw_scene(c, {things_->colour.name(), things_->depth.name(), 50e3});
+            else
+                renderer_.draw(c);
             renderer_.read_back(c, pixels_);
         }
         ++frame_;
@@ -58,6 +79,7 @@ class Flight {
     Scene start_;
     Renderer renderer_;
     std::vector<std::byte> pixels_;
+    std::optional<Things> things_;
     int frame_ = 0;
     int air_passes_ = 0;
 };
@@ -86,6 +108,17 @@ TEST_F(Allocation, SteadyFramesAllocateNothingAndSoAgainAfterNewAir) {
         EXPECT_GT(passes_until_taken, passes_before) << name;
         EXPECT_EQ(flight.air_passes(), passes_until_taken) << "the new air was not taken over: " << name;
         EXPECT_EQ(after, 0) << name;
+    }
+}
+
+TEST_F(Allocation, NorDoFramesWithAnotherRenderersPicture) {
+    const std::vector<Channel> channels{{"only", 64, 64}};
+    for (auto& [name, scene] : four_times()) {
+        add_view(scene, symmetric_frustum(30.0, 64, 64), view_from_enu(180.0, 10.0, 0.0, 0.0));
+        Flight flight(channels, scene);
+        flight.put_things_at_half_way();
+        flight.frames(kWarmUpFrames);
+        EXPECT_EQ(flight.frames(100), 0) << name;
     }
 }
 

@@ -7,11 +7,13 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "render/gl/texture.h"
 #include "render/sky/geometry.h"
 #include "render/sky/ray_light.h"
+#include "render/sky_frame.h"
 #include "tests/render/gl_fixture.h"
 
 namespace skyig::render {
@@ -238,6 +240,37 @@ TEST_F(Deferred, AFarRidgeTendsToTheHorizonSky) {
         last = step;
     }
     EXPECT_LE(last, 2);
+}
+
+TEST_F(Deferred, ALightThatComesOrGoesMovesNoPictureBySteps) {
+    SkyFrame frame({}, {});
+    DeferredAir air;
+    const glm::dvec3 direction = at(1.0, 200.0);
+    for (const auto& [name, sun_deg, moon_deg, sun_step_deg, moon_step_deg] :
+         {std::tuple{"the Moon comes", -25.0, -11.2, 0.0, 0.01},
+          std::tuple{"the Sun goes", -21.6, 30.0, -0.01, 0.0}}) {
+        double largest = 0.0;
+        double most_lights = 0.0;
+        double fewest_lights = 9.0;
+        glm::dvec3 last{0.0};
+        for (int i = 0; i < 100; ++i) {
+            Scene scene =
+                make_scene(sun_deg + sun_step_deg * i, 120.0, moon_deg + moon_step_deg * i, 250.0, 500.0);
+            scene.time_s = i / 30.0;
+            frame.prepare(scene, 8e-4);
+            air.update(scene, frame.plan(), frame.tables(), frame.light());
+            const glm::dvec3 shown =
+                255.0 * shaders64::shown(air.under_air(glm::dvec3{1e-4}, direction, 30e3), frame.tone());
+            const glm::dvec3 step = glm::abs(shown - last);
+            if (i > 0) largest = std::max({largest, step.x, step.y, step.z});
+            last = shown;
+            most_lights = std::max(most_lights, static_cast<double>(air.source_count()));
+            fewest_lights = std::min(fewest_lights, static_cast<double>(air.source_count()));
+        }
+        std::printf("%s: largest step %.3f codes\n", name, largest);
+        EXPECT_LT(largest, 0.5) << name;
+        EXPECT_GT(most_lights, fewest_lights) << name;
+    }
 }
 
 }  // namespace

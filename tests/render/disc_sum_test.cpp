@@ -28,6 +28,7 @@ shaders32::ToneParameters linear_tone(double mean_cd_m2) {
     tone.exponent = 1.0F;
     tone.photopic = 1.0F;
     tone.inv_display_max = 1.0F;
+    tone.shoulder = 1.0F;
     tone.encode_power = 1.0F;
     return tone;
 }

@@ -24,10 +24,14 @@ class DomeLight {
         corners_.reserve(dome_.vertices().size());
         for (const DomeVertex& vertex : dome_.vertices())
             corners_.emplace_back(enu_from_mesh * glm::dvec4{glm::dvec3{vertex.direction}, 1.0});
-        first_index_.resize(corners_.size());
+        triangles_.resize(stride_ - 1);
         const auto indices = dome_.indices();
-        for (std::size_t i = 0; i < indices.size(); i += 6)
-            first_index_[*std::min_element(&indices[i], &indices[i] + 6)] = i;
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            const auto column = [&](std::size_t k) { return indices[i + k] % stride_; };
+            const auto [first, last] = std::minmax({column(0), column(1), column(2)});
+            for (std::size_t each = first; each < last; ++each)
+                triangles_[each].push_back(i);
+        }
     }
 
     /// The first index of the triangle.
@@ -72,17 +76,7 @@ class DomeLight {
 
     [[nodiscard]] std::optional<std::size_t> pierced_in(std::size_t column,
                                                         const glm::dvec3& direction) const {
-        // The lowest row whose straight edge lies above the direction.
-        std::size_t low = 0;
-        std::size_t high = corners_.size() / stride_ - 1;
-        while (high - low > 1) {
-            const std::size_t row = (low + high) / 2;
-            const std::size_t at = row * stride_ + column;
-            const glm::dvec3 edge = glm::cross(corners_[at + 1], corners_[at]);
-            (glm::dot(edge, direction) >= 0.0 ? low : high) = row;
-        }
-        const std::size_t first = first_index_[low * stride_ + column];
-        for (const std::size_t triangle : {first, first + 3}) {
+        for (const std::size_t triangle : triangles_[column]) {
             const glm::dvec3 w = weights(triangle, direction);
             if (std::min({w.x, w.y, w.z}) >= -1e-6 * std::max({w.x, w.y, w.z})) return triangle;
         }
@@ -92,7 +86,7 @@ class DomeLight {
     const Dome& dome_;
     std::size_t stride_;
     std::vector<glm::dvec3> corners_;
-    std::vector<std::size_t> first_index_;
+    std::vector<std::vector<std::size_t>> triangles_;  // of each column between two meridians
 };
 
 struct CodeErrors {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 #include <set>
 
@@ -31,16 +32,57 @@ TEST(DomePatches, EveryTriangleStandsInTheBufferOnce) {
 }
 
 TEST(DomePatches, AQuadIsCutAlongTheDiagonalThatIsAskedFor) {
-    DomePatches patches(2, 3);
-    std::vector<std::uint8_t> rising(6, 0);
-    rising[4] = 1;  // second row, second column: corners 5, 6 below and 9, 10 above
-    patches.split(rising);
+    DomePatches patches(2, 3);  // corners of the second row's second quad: 5, 6 below and 9, 10 above
+    patches.triangulate([](auto&&...) { return false; },
+                        [](const DomePatches::Quad& quad) { return quad.row == 1 && quad.column == 1; });
     std::set<std::set<std::uint32_t>> triangles;
     for (std::size_t i = 0; i < patches.indices().size(); i += 3)
         triangles.insert({patches.indices()[i], patches.indices()[i + 1], patches.indices()[i + 2]});
     EXPECT_EQ(triangles.size(), 12U);
     EXPECT_TRUE(triangles.count({5, 6, 10}) == 1 && triangles.count({5, 9, 10}) == 1);
     EXPECT_TRUE(triangles.count({0, 1, 4}) == 1 && triangles.count({1, 4, 5}) == 1);
+}
+
+TEST(DomePatches, PatchesOfDifferentStepsMeetWithoutAGap) {
+    constexpr std::uint32_t kRows = 19;
+    constexpr std::uint32_t kColumns = 32;
+    std::mt19937 random{5};
+    for (int round = 0; round < 20; ++round) {
+        DomePatches patches(kRows, kColumns);
+        patches.triangulate([&](auto&&...) { return random() % 2 == 0; },
+                            [&](auto&&) { return random() % 2 == 0; });
+        EXPECT_LT(patches.indices().size(), kRows * kColumns * 6);
+        // Inside every edge is run through once each way; the border's outermost edges once.
+        std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
+        double area = 0.0;
+        const auto at = [&](std::size_t i) {
+            const std::uint32_t index = patches.indices()[i];
+            return glm::dvec2{index % (kColumns + 1), index / (kColumns + 1)};
+        };
+        for (std::size_t i = 0; i < patches.indices().size(); i += 3) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::pair edge{patches.indices()[i + k], patches.indices()[i + (k + 1) % 3]};
+                ++balance[edge];
+                --balance[{edge.second, edge.first}];
+            }
+            const glm::dvec2 u = at(i + 1) - at(i);
+            const glm::dvec2 v = at(i + 2) - at(i);
+            const double twice = std::abs(u.x * v.y - u.y * v.x);
+            EXPECT_GT(twice, 0.0);
+            area += 0.5 * twice;
+        }
+        EXPECT_EQ(area, kRows * kColumns);
+        const auto inside = [&](std::uint32_t index) {
+            const std::uint32_t row = index / (kColumns + 1);
+            const std::uint32_t column = index % (kColumns + 1);
+            return row > 0 && row < kRows && column > 0 && column < kColumns;
+        };
+        for (const auto& [edge, count] : balance) {
+            if (inside(edge.first) || inside(edge.second)) {
+                EXPECT_EQ(count, 0) << edge.first << " " << edge.second;
+            }
+        }
+    }
 }
 
 TEST(DomePatches, WhateverTheViewPiercesIsDrawn) {

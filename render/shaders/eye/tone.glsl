@@ -1,14 +1,18 @@
 // From absolute luminance to the value sent to the display. One text for GLSL and C++.
-// The curve is log10 Ld = p + q log10 L (Tumblin and Rushmeier 1993 by day, threshold matching by night: p, q and
-// the rod share come from render/eye/tone_curve.h), the night colour follows Jensen et al. 2000.
+// Every operator is log10 Ld = p + q log10 L, Reinhard's compressed after that; p, q and the rod share come from
+// render/eye/tone_curve.h. The night colour follows Jensen et al. 2000.
 
 struct ToneParameters {
     real log2_gain;          // p / log10(2): log2 of the display luminance, cd/m2, of a world luminance of 1
     real exponent;           // q
+    real compression;        // 1: x = Ld / white is shown as x (1 + burn x) / (1 + x) (Reinhard et al. 2002); 0: as x
+    real burn;
     real photopic;           // 0 rods only .. 1 cones only, from the adaptation luminance
     real point_gain;         // display luminance per world luminance of point sources
     real inv_display_max;    // 1 / luminance of full white, m2/cd
-    real encode_power;       // 0: sRGB curve, else 1 / gamma
+    real ambient;            // luminance of the display at code 0, parts of full white
+    real shoulder;           // parts of full white above which brightness is compressed; 1: it is clipped
+    real encode_power;       // 0: sRGB curve, > 0: 1 / gamma, < 0: none, linear and without bounds
 };
 
 SKYIG_INLINE real luminance_709(rvec3 rgb) { return real(0.2126) * rgb.x + real(0.7152) * rgb.y + real(0.0722) * rgb.z; }
@@ -44,30 +48,34 @@ SKYIG_INLINE rvec3 night_coloured(rvec3 rgb, real photopic) {
 
 // World linear Rec.709, cd/m2 -> display linear, 1 = full white, not clipped.
 SKYIG_INLINE rvec3 display_linear(rvec3 rgb_cd_m2, ToneParameters tone) {
-    real luminance = luminance_709(rgb_cd_m2);
-    if (!(luminance > real(1e-12))) return rvec3(real(0.0));
-    if (luminance > real(1e12)) luminance = real(1e12);
-    real gain = exp2(tone.log2_gain + (tone.exponent - real(1.0)) * log2(luminance));
+    if (!(luminance_709(rgb_cd_m2) > real(1e-12))) return rvec3(real(0.0));
+    rvec3 finite = min(rgb_cd_m2, rvec3(real(1e12)));
+    real luminance = max(luminance_709(finite), real(1e-12));
+    real gain = exp2(tone.log2_gain + (tone.exponent - real(1.0)) * log2(luminance)) * tone.inv_display_max;
+    real white_parts = gain * luminance;
+    gain *= (real(1.0) + tone.compression * tone.burn * white_parts) / (real(1.0) + tone.compression * white_parts);
     real photopic = max(tone.photopic, photopic_share(luminance));
-    rvec3 rgb = night_coloured(inside_gamut(rgb_cd_m2, luminance), photopic);
-    return rgb * (gain * tone.inv_display_max);
+    return night_coloured(inside_gamut(finite, luminance), photopic) * gain;
 }
 
-// What is brighter than the display can show keeps its hue and goes to white: a shoulder on the largest component from
-// 0.7 of full white on, and a share of white that grows with what the shoulder takes away.
-SKYIG_INLINE rvec3 highlights(rvec3 display) {
+// What is brighter than the display can show keeps its hue and goes to white: a shoulder on the largest component, and a
+// share of white that grows with what the shoulder takes away.
+SKYIG_INLINE rvec3 highlights(rvec3 display, real shoulder) {
     real largest = rounded_max(rounded_max(display.x, display.y, real(0.05)), display.z, real(0.05));
-    if (!(largest > real(0.7))) return max(display, rvec3(real(0.0)));
-    real kept = real(1.0) - real(0.3) * exp2((real(0.7) - largest) * real(4.8089834696));
+    if (!(largest > shoulder) || shoulder >= real(1.0)) return max(display, rvec3(real(0.0)));
+    real width = real(1.0) - shoulder;
+    real kept = real(1.0) - width * exp2((shoulder - largest) * (real(1.4426950409) / width));
     real share = kept / largest;
     real white = (real(1.0) - share) * (real(1.0) - share);
     rvec3 scaled = display * share;
     return scaled + (rvec3(kept) - scaled) * white;
 }
 
-// Display linear -> display code in 0..1.
+// Display linear -> display code in 0..1. The display adds its black and what it reflects to all that it is sent.
 SKYIG_INLINE rvec3 encoded(rvec3 display, ToneParameters tone) {
-    rvec3 v = clamp(highlights(display), rvec3(real(0.0)), rvec3(real(1.0)));
+    if (tone.encode_power < real(0.0)) return display;
+    rvec3 sent = highlights(display - rvec3(tone.ambient), tone.shoulder);
+    rvec3 v = clamp(sent, rvec3(real(0.0)), rvec3(real(1.0)));
     if (tone.encode_power > real(0.0)) return pow(v, rvec3(tone.encode_power));
     rvec3 low = v * real(12.92);
     rvec3 high = pow(max(v, rvec3(real(1e-6))), rvec3(real(1.0) / real(2.4))) * real(1.055) - rvec3(real(0.055));
