@@ -120,6 +120,8 @@ struct Eye {
     /// Time constants of the cockpit's pace to brighter and to darker light, 0..600; 0 = at once.
     double adapt_up_s = 0.5;
     double adapt_down_s = 5.0;
+    /// The veil that the eye lays round Sun and Moon.
+    bool glare = true;
 };
 
 /// "headless": nowhere, or into files by option.

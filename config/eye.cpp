@@ -62,6 +62,7 @@ void read_eye(TableReader table, Eye& eye) {
         eye.pace = static_cast<AdaptationPace>(index);
     table.number("adapt_up_s", eye.adapt_up_s, {0.0, 600.0, "s"});
     table.number("adapt_down_s", eye.adapt_down_s, {0.0, 600.0, "s"});
+    table.boolean("glare", eye.glare);
     table.finish();
 }
 

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/eye/fovea.h"
+#include "render/night/moon_light.h"
+
 namespace skyig::render {
 
 namespace {
@@ -67,6 +70,17 @@ DiscFrame disc_frame(const glm::dvec3& direction_enu, double angular_radius_rad,
     frame.background_up = 0.5F * (sky(angular_radius_rad, 0.0) - sky(-angular_radius_rad, 0.0));
     frame.background_right = 0.5F * (sky(0.0, aside_rad) - sky(0.0, -aside_rad));
     return frame;
+}
+
+shaders64::Fovea moon_fovea(const Scene& scene, const sky::AirTables& air, const SkyLight& light,
+                            const DisplaySettings& display, const shaders64::ToneParameters& tone) noexcept {
+    const double seen_rad =
+        light.refraction.apparent_from_true(horizontal_of(scene.moon.direction_enu).elevation_rad);
+    const double straight_rad =
+        std::max(light.straight_elevation_rad(seen_rad), light.straight_horizon_rad + kWholeDisc_rad);
+    const double passed = shaders64::luminance_709(air.transmittance_rgb(light.eye_height_m, straight_rad));
+    const double lit_cd_m2 = std::max(passed * night::moon_lit_cd_m2(scene.moon, scene.sun.distance_au), 1.0);
+    return eye::fovea(display, tone, 1e-4 * lit_cd_m2, lit_cd_m2);
 }
 
 }  // namespace skyig::render

@@ -6,6 +6,10 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 
+#include "render/display.h"
+#include "render/scene.h"
+#include "render/shaders/shared.h"
+#include "render/sky/air_tables.h"
 #include "render/sky_light.h"
 
 namespace skyig::render {
@@ -51,5 +55,11 @@ struct DiscFrame {
 [[nodiscard]] DiscFrame disc_frame(const glm::dvec3& direction_enu, double angular_radius_rad,
                                    double pixel_rad, const SkyLight& light,
                                    double reach_radii = 1.0) noexcept;
+
+/// How the eye that looks at the Moon takes its light: exact for the sunlit face behind the air, and for 1e-4
+/// of it, deep in the Earth's shadow. \param tone  the frame's, made of `display`
+[[nodiscard]] shaders64::Fovea moon_fovea(const Scene& scene, const sky::AirTables& air,
+                                          const SkyLight& light, const DisplaySettings& display,
+                                          const shaders64::ToneParameters& tone) noexcept;
 
 }  // namespace skyig::render

@@ -7,6 +7,8 @@
 #include "render/disc_frame.h"
 #include "render/gl/mesh.h"
 #include "render/gl/program.h"
+#include "render/gl/texture.h"
+#include "render/glare.h"
 #include "render/scene.h"
 #include "render/shaders/shared.h"
 #include "render/sky/air_tables.h"
@@ -75,13 +77,17 @@ class Corona {
 class MoonDisc {
   public:
     MoonDisc();
+    /// \param fovea  the eye that looks at it; \param veil  its own glare
     void prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
-                 const shaders32::ToneParameters& tone, bool dither);
-    void draw(const glm::mat4& clip_from_enu) const { pass_.draw(clip_from_enu); }
+                 const shaders32::ToneParameters& tone, bool dither, const shaders64::Fovea& fovea,
+                 const Glare::Limb& veil);
+    void draw(const glm::mat4& clip_from_enu) const;
 
   private:
     DiscPass pass_;
-    int face_, earthshine_, to_sun_, shadow_axis_, shadow_radii_;
+    gl::Texture map_;
+    int face_, earthshine_, lit_, veil_, to_sun_, shadow_axis_, shadow_radii_, selenographic_, map_level_,
+        veil_own_, fovea_factor_, fovea_slope_;
 };
 
 }  // namespace skyig::render

@@ -59,6 +59,8 @@ struct DisplaySettings : Screen {
     /// Time constants of kCockpit towards brighter and darker scenes, seconds of scene time.
     double adapt_up_s = 0.5;
     double adapt_down_s = 5.0;
+    /// The veil that the eye's own media lay round Sun and Moon.
+    bool glare = true;
 };
 
 /// The same eye before another screen.

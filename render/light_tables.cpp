@@ -38,11 +38,10 @@ double sunlight_lux(const sky::AirModel& model) {
 
 }  // namespace
 
-glm::vec3 moon_scale_xyz(const Moon& moon, const sky::AirModel& model, double share) noexcept {
-    const double sunlit = std::max(moon.sunlit, kFromUmbra);
-    return glm::vec3{night::moon_tint_xyz() *
-                     (share * sunlit * night::moon_illuminance_lux(moon.phase_angle_rad, moon.distance_km) /
-                      sunlight_lux(model))};
+glm::vec3 moon_scale_xyz(const Scene& scene, const sky::AirModel& model, double share) noexcept {
+    const double sunlit = std::max(scene.moon.sunlit, kFromUmbra);
+    const double lux = sunlit * night::moon_illuminance_lux(scene.moon, scene.sun.distance_au);
+    return glm::vec3{night::moon_tint_xyz() * (share * lux / sunlight_lux(model))};
 }
 
 LightTables::LightTables(const sky::SkyViewSize& size) : sun_(size), moon_(size) {}
@@ -220,7 +219,7 @@ SkyLight LightTables::light(const Scene& scene, const Plan& plan,
     }
     if (plan.moon_share > 0.0 && moon_.front_made.air != 0) {
         light.moon = {&moon_.front, horizontal_of(scene.moon.direction_enu),
-                      moon_scale_xyz(scene.moon, air_->model(), plan.moon_share), reflected(moon_)};
+                      moon_scale_xyz(scene, air_->model(), plan.moon_share), reflected(moon_)};
     }
     return light;
 }

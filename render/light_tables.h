@@ -22,7 +22,7 @@
 namespace skyig::render {
 
 /// Factors on X, Y, Z of sunlit air that make it moonlit. \param share  of the light that is drawn
-[[nodiscard]] glm::vec3 moon_scale_xyz(const Moon& moon, const sky::AirModel& model, double share) noexcept;
+[[nodiscard]] glm::vec3 moon_scale_xyz(const Scene& scene, const sky::AirModel& model, double share) noexcept;
 
 class LightTables {
   public:

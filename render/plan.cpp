@@ -6,6 +6,7 @@
 #include "render/dome_bend.h"
 #include "render/eye/point_threshold.h"
 #include "render/geometry.h"
+#include "render/glare.h"
 #include "render/night/milky_way_map.h"
 #include "render/night/natural_light.h"
 #include "render/night/night_sky.h"
@@ -89,6 +90,8 @@ Cost cost_of(Pass pass) {
         case Pass::kCorona:
         case Pass::kSunDisc:
         case Pass::kMoonDisc:
+        case Pass::kSunGlare:
+        case Pass::kMoonGlare:
             break;
     }
     return Cost::kChannel;
@@ -147,8 +150,8 @@ void plan_night(Plan& plan, double sun_rad) {
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables", "sun sky", "moon sky", "night sky", "dome",    "waves",
-        "milky way",  "stars",   "corona",   "sun disc",  "moon disc"};
+        "air tables", "sun sky", "moon sky", "night sky", "dome",      "waves",     "milky way",
+        "stars",      "corona",  "sun disc", "moon disc", "sun glare", "moon glare"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -199,6 +202,8 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kSunDisc, plan_disc(scene.sun.enabled, sun_rad, sun_radius_rad, sets_at_rad));
     put(plan, Pass::kMoonDisc,
         plan_disc(scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad, sets_at_rad));
+    for (const Pass pass : {Pass::kSunGlare, Pass::kMoonGlare})
+        put(plan, pass, {false, "not decided yet"});
     return plan;
 }
 
@@ -226,6 +231,18 @@ void plan_waves(Plan& plan, const Scene& scene, const sky::SeaWaves& waves, bool
     } else {
         put(plan, Pass::kWaves, {true, "pixels resolve waves near the eye"});
     }
+}
+
+void plan_glare(Plan& plan, Pass pass, bool enabled, double reach_rad) noexcept {
+    if (!enabled) {
+        put(plan, pass, {false, "switched off"});
+    } else if (reach_rad <= 0.0) {
+        put(plan, pass, {false, "adds less than half a code to the sky"});
+    } else {
+        put(plan, pass, {true, "the eye spreads the disc's light"});
+    }
+    plan.passes[static_cast<std::size_t>(pass)].resolution = {static_cast<int>(Glare::kRings),
+                                                              static_cast<int>(Glare::kSectors)};
 }
 
 void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept {

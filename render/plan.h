@@ -95,8 +95,9 @@ struct Plan {
 [[nodiscard]] double direction_table_error_codes(const sky::SkyViewSize& size) noexcept;
 
 /// \param scene  the frame; \param held  what is in the tables; \param refraction  of the frame's eye and
-/// air. Deterministic: equal input gives an equal plan. Dome, waves, stars and the Milky Way are left for
-/// plan_dome(), plan_waves(), plan_stars() and plan_milky_way(), which need the light that this plan leads to.
+/// air. Deterministic: equal input gives an equal plan. Dome, waves, stars, the Milky Way and glare are left
+/// for plan_dome(), plan_waves(), plan_stars(), plan_milky_way() and plan_glare(), which need the light that
+/// this plan leads to.
 [[nodiscard]] Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction,
                              const Quality& quality = {}) noexcept;
 
@@ -115,6 +116,10 @@ void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double 
 /// Decides on the Milky Way. \param most_codes  what its brightest part would add to the darkest sky, display
 /// codes
 void plan_milky_way(Plan& plan, const Scene& scene, double most_codes) noexcept;
+
+/// Decides on the glare of Sun or Moon. \param reach_rad  Glare::reach_rad(). A pass without a reach has
+/// nothing to draw even where it is forced.
+void plan_glare(Plan& plan, Pass pass, bool enabled, double reach_rad) noexcept;
 
 /// Stars where light is drawn without an eye: every star and planet that is switched on.
 void plan_all_stars(Plan& plan, const Scene& scene) noexcept;

@@ -19,8 +19,10 @@ enum class Pass {
     kCorona,  ///< what is left of the Sun in a total eclipse
     kSunDisc,
     kMoonDisc,
+    kSunGlare,  ///< the veil round the disc in the eye
+    kMoonGlare,
 };
-inline constexpr std::size_t kPassCount = 11;
+inline constexpr std::size_t kPassCount = 13;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 

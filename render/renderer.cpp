@@ -12,6 +12,7 @@
 #include "render/gl/framebuffer.h"
 #include "render/gl/mesh.h"
 #include "render/gl/program.h"
+#include "render/glare_pass.h"
 #include "render/milky_way_pass.h"
 #include "render/screens.h"
 #include "render/sea_pass.h"
@@ -63,6 +64,7 @@ struct Renderer::Impl {
 
     void upload_dome();
     void prepare_discs(std::size_t screen);
+    void prepare_moon(std::size_t screen);
     void draw_dome(std::size_t channel, const glm::dmat4& clip_from_enu);
     void refresh_deferred();
 
@@ -84,6 +86,8 @@ struct Renderer::Impl {
     Corona corona;
     SunDisc sun_disc;
     MoonDisc moon_disc;
+    GlarePass sun_glare;
+    GlarePass moon_glare;
     std::unique_ptr<DeferredPass> deferred;  // once a scene is drawn
 
     // The frame in hand.
@@ -115,8 +119,17 @@ void Renderer::Impl::prepare_discs(std::size_t screen) {
         corona.prepare(scene, frame.air(), frame.light(), pixel_rad, tone32, plan.corona_share);
     if (plan.needs(Pass::kSunDisc))
         sun_disc.prepare(scene, frame.air(), frame.light(), pixel_rad, tone32, display.dither);
-    if (plan.needs(Pass::kMoonDisc))
-        moon_disc.prepare(scene, frame.air(), frame.light(), pixel_rad, tone32, display.dither);
+    if (plan.needs(Pass::kMoonDisc)) prepare_moon(screen);
+    if (plan.needs(Pass::kSunGlare)) sun_glare.prepare(frame.sun_glare(screen), pixel_rad, display.dither);
+    if (plan.needs(Pass::kMoonGlare)) moon_glare.prepare(frame.moon_glare(screen), pixel_rad, display.dither);
+}
+
+void Renderer::Impl::prepare_moon(std::size_t screen) {
+    moon_disc.prepare(
+        scene, frame.air(), frame.light(), pixel_rad, eye::single_precision(frame.tone(screen)),
+        display.dither,
+        moon_fovea(scene, frame.air(), frame.light(), frame.display(screen), frame.tone(screen)),
+        frame.moon_glare(screen).limb());
 }
 
 void Renderer::Impl::draw_dome(std::size_t index, const glm::dmat4& clip_from_enu) {
@@ -200,9 +213,18 @@ void Renderer::draw(std::size_t channel) {
         gl::set_blend(gl::Blend::kAdd);
         m.corona.draw(glm::mat4{clip_from_enu});
     }
+    if (plan.needs(Pass::kMoonGlare)) {
+        gl::set_blend(gl::Blend::kAdd);
+        m.moon_glare.draw(glm::mat4{clip_from_enu});
+    }
     gl::set_blend(gl::Blend::kCoverage);
     if (plan.needs(Pass::kSunDisc)) m.sun_disc.draw(glm::mat4{clip_from_enu});
     if (plan.needs(Pass::kMoonDisc)) m.moon_disc.draw(glm::mat4{clip_from_enu});
+    if (plan.needs(Pass::kSunGlare)) {
+        // Over the Moon too, when it stands before the Sun.
+        gl::set_blend(gl::Blend::kAdd);
+        m.sun_glare.draw_around(glm::mat4{clip_from_enu});
+    }
     gl::finish();
 }
 

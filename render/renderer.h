@@ -65,7 +65,8 @@ class Renderer {
     [[nodiscard]] std::span<const Channel> channels() const noexcept;
 
     /// The colour, encoded for the display and before dither, that the same functions give for one
-    /// direction of view (discs and stars left out): what the tests hold the drawn pixels against.
+    /// direction of view (discs, their glare and stars left out): what the tests hold the drawn pixels
+    /// against.
     [[nodiscard]] glm::dvec3 reference_colour(const glm::dvec3& direction_enu, std::size_t channel = 0) const;
     /// The same of a thing, given by its own light, in the first channel; after a draw_scene().
     [[nodiscard]] glm::dvec3 reference_colour(const glm::dvec3& direction_enu, double distance_m,

@@ -53,6 +53,8 @@ SkyFrame::SkyFrame(const DisplaySettings& display, const Quality& quality, std::
       quality_(quality),
       target_(target),
       tables_(direction_table_size(quality)),
+      sun_glares_(displays_.size()),
+      moon_glares_(displays_.size()),
       dome_(displays_.size()),
       sea_(displays_.size()),
       milky_way_(displays_.size()),
@@ -71,6 +73,7 @@ void SkyFrame::prepare(const Scene& scene, double pixel_rad) {
     adapt(scene);
     tone_screens(scene, pixel_rad);
     refresh_milky_way(scene);
+    dazzle(scene);
     refresh_dome(pixel_rad);
     refresh_sea(scene, pixel_rad);
     tell_dome();
@@ -147,6 +150,24 @@ void SkyFrame::refresh_milky_way(const Scene& scene) {
                         static_cast<float>(plan_.night_share * night::starlight_share(scene.night))};
     milky_way_.shade(light_, tones_, first || !milky_way_shown_);
     milky_way_shown_ = true;
+}
+
+void SkyFrame::dazzle(const Scene& scene) {
+    const GlareSource sun = render::sun_glare(scene, tables_.air(), light_);
+    const GlareSource moon = render::moon_glare(scene, tables_.air(), light_);
+    // As far as any screen shows it.
+    double sun_reach_rad = 0.0;
+    double moon_reach_rad = 0.0;
+    for (std::size_t screen = 0; screen < displays_.size(); ++screen) {
+        sun_glares_[screen].update(sun, light_, displays_[screen], tones_[screen]);
+        moon_glares_[screen].update(moon, light_, displays_[screen], tones_[screen]);
+        sun_reach_rad = std::max(sun_reach_rad, sun_glares_[screen].reach_rad());
+        moon_reach_rad = std::max(moon_reach_rad, moon_glares_[screen].reach_rad());
+    }
+    // Luminance is without an eye.
+    const bool wanted = displays_.front().glare && target_ == Target::kDisplay;
+    plan_glare(plan_, Pass::kSunGlare, wanted && scene.sun.enabled, sun_reach_rad);
+    plan_glare(plan_, Pass::kMoonGlare, wanted && scene.moon.enabled, moon_reach_rad);
 }
 
 void SkyFrame::refresh_dome(double pixel_rad) {

@@ -8,6 +8,7 @@
 #include "render/display.h"
 #include "render/dome.h"
 #include "render/eye/adaptation.h"
+#include "render/glare.h"
 #include "render/light_tables.h"
 #include "render/milky_way.h"
 #include "render/plan.h"
@@ -58,6 +59,15 @@ class SkyFrame {
     [[nodiscard]] double adaptation_cd_m2() const noexcept { return adaptation_.luminance_cd_m2(); }
     [[nodiscard]] const sky::AirTables& air() const noexcept { return tables_.air(); }
     [[nodiscard]] const LightTables& tables() const noexcept { return tables_; }
+    [[nodiscard]] const DisplaySettings& display(std::size_t screen = 0) const noexcept {
+        return displays_[screen];
+    }
+    [[nodiscard]] const Glare& sun_glare(std::size_t screen = 0) const noexcept {
+        return sun_glares_[screen];
+    }
+    [[nodiscard]] const Glare& moon_glare(std::size_t screen = 0) const noexcept {
+        return moon_glares_[screen];
+    }
     [[nodiscard]] Dome& dome() noexcept { return dome_; }
     [[nodiscard]] const Dome& dome() const noexcept { return dome_; }
     [[nodiscard]] MilkyWay& milky_way() noexcept { return milky_way_; }
@@ -93,6 +103,7 @@ class SkyFrame {
     void adapt(const Scene& scene);
     void tone_screens(const Scene& scene, double pixel_rad);
     [[nodiscard]] double luminance_cd_m2(double elevation_rad, double azimuth_rad) const;
+    void dazzle(const Scene& scene);
     void refresh_dome(double pixel_rad);
     void refresh_sea(const Scene& scene, double pixel_rad);
     void tell_dome() noexcept;
@@ -104,6 +115,8 @@ class SkyFrame {
     Target target_;
     LightTables tables_;
     eye::Adaptation adaptation_;
+    std::vector<Glare> sun_glares_;  // one a screen
+    std::vector<Glare> moon_glares_;
     DomeBend bend_;
     Dome dome_;
     SeaMesh sea_;

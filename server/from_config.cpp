@@ -200,6 +200,7 @@ render::DisplaySettings display_settings(const config::Config& config) {
     settings.adapt_pace = static_cast<render::AdaptationPace>(eye.pace);
     settings.adapt_up_s = eye.adapt_up_s;
     settings.adapt_down_s = eye.adapt_down_s;
+    settings.glare = eye.glare;
     return settings;
 }
 

@@ -17,8 +17,8 @@ std::size_t components(TexelFormat format) {
 
 }  // namespace
 
-Texture::Texture(TexelFormat format, int width, int height, int depth)
-    : format_(format), width_(width), height_(height), depth_(depth) {
+Texture::Texture(TexelFormat format, int width, int height, int depth, int levels)
+    : format_(format), width_(width), height_(height), depth_(depth), levels_(levels) {
     GLint limit = 0;
     glGetIntegerv(depth > 0 ? GL_MAX_3D_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE, &limit);
     if (width < 1 || height < 1 || depth < 0 || width > limit || height > limit || depth > limit) {
@@ -29,11 +29,11 @@ Texture::Texture(TexelFormat format, int width, int height, int depth)
     const GLenum internal = format == TexelFormat::kRgba32F ? GL_RGBA32F : GL_R32F;
     glCreateTextures(depth > 0 ? GL_TEXTURE_3D : GL_TEXTURE_2D, 1, &name_);
     if (depth > 0) {
-        glTextureStorage3D(name_, 1, internal, width, height, depth);
+        glTextureStorage3D(name_, levels, internal, width, height, depth);
     } else {
-        glTextureStorage2D(name_, 1, internal, width, height);
+        glTextureStorage2D(name_, levels, internal, width, height);
     }
-    glTextureParameteri(name_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(name_, GL_TEXTURE_MIN_FILTER, levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
     glTextureParameteri(name_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
         glTextureParameteri(name_, side, GL_CLAMP_TO_EDGE);
@@ -48,6 +48,7 @@ Texture::Texture(Texture&& other) noexcept
       width_(other.width_),
       height_(other.height_),
       depth_(other.depth_),
+      levels_(other.levels_),
       name_(std::exchange(other.name_, 0U)) {}
 
 Texture& Texture::operator=(Texture&& other) noexcept {
@@ -55,6 +56,7 @@ Texture& Texture::operator=(Texture&& other) noexcept {
     std::swap(width_, other.width_);
     std::swap(height_, other.height_);
     std::swap(depth_, other.depth_);
+    std::swap(levels_, other.levels_);
     std::swap(name_, other.name_);
     return *this;
 }
@@ -70,6 +72,7 @@ void Texture::update(std::span<const float> texels) const {
     } else {
         glTextureSubImage2D(name_, 0, 0, 0, width_, height_, layout, GL_FLOAT, texels.data());
     }
+    if (levels_ > 1) glGenerateTextureMipmap(name_);
 }
 
 void bind_texture(int unit, unsigned texture) {

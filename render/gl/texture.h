@@ -12,7 +12,9 @@ enum class TexelFormat { kRgba32F, kR32F };
 class Texture {
   public:
     /// \throws std::runtime_error if the driver cannot hold that size
-    Texture(TexelFormat format, int width, int height, int depth = 0);
+    /// \param levels  1, or more for a two-dimensional one that is to be asked at coarser levels too, each
+    /// half the size of the one before
+    Texture(TexelFormat format, int width, int height, int depth = 0, int levels = 1);
     ~Texture();
     Texture(Texture&& other) noexcept;
     Texture& operator=(Texture&& other) noexcept;
@@ -27,7 +29,7 @@ class Texture {
 
   private:
     TexelFormat format_;
-    int width_, height_, depth_;
+    int width_, height_, depth_, levels_;
     unsigned name_ = 0;
 };
 

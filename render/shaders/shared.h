@@ -15,6 +15,8 @@ using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, 
     glm::cos, glm::tan, glm::asin, glm::dot, glm::length, glm::abs, glm::floor;
 #include "render/shaders/common/angle.glsl"
 #include "render/shaders/eye/tone.glsl"
+// After the tone curve that it builds on.
+#include "render/shaders/eye/fovea.glsl"
 #include "render/shaders/night/moon.glsl"
 #include "render/shaders/sky/aerial.glsl"
 #include "render/shaders/sky/cie.glsl"
@@ -31,6 +33,8 @@ using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, 
     glm::cos, glm::tan, glm::asin, glm::dot, glm::length, glm::abs, glm::floor;
 #include "render/shaders/common/angle.glsl"
 #include "render/shaders/eye/tone.glsl"
+// After the tone curve that it builds on.
+#include "render/shaders/eye/fovea.glsl"
 #include "render/shaders/night/moon.glsl"
 #include "render/shaders/sky/aerial.glsl"
 #include "render/shaders/sky/cie.glsl"

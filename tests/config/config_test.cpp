@@ -126,6 +126,7 @@ adaptation_cd_m2 = 20
 adapt_pace = "physiological"
 adapt_up_s = 1
 adapt_down_s = 20
+glare = false
 [output]
 kind = "headless"
 [[channel]]
@@ -183,6 +184,7 @@ group_id = 3
     EXPECT_EQ(c.eye.adaptation_cd_m2, 20.0);
     EXPECT_EQ(c.eye.pace, AdaptationPace::kPhysiological);
     EXPECT_EQ(c.eye.adapt_down_s, 20.0);
+    EXPECT_FALSE(c.eye.glare);
     ASSERT_EQ(c.channels.size(), 1U);
     EXPECT_EQ(c.channels[0].offset_m, (std::array{1.0, -0.5, 2.0}));
     EXPECT_EQ(c.channels[0].bottom_deg, 1.0);

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "render/colour.h"
+#include "render/disc_frame.h"
 #include "render/eye/tone_curve.h"
 #include "render/night/moon_light.h"
+#include "render/night/moon_map.h"
 #include "render/shaders/shared.h"
 #include "render/sky/air_tables.h"
 #include "tests/render/gl_fixture.h"
@@ -21,13 +23,54 @@ using namespace tests;
 
 constexpr int kSize = 128;
 
+// The Moon's map and its coarser levels, asked as a texture unit asks: linear in place and in level.
+class MoonPyramid {
+  public:
+    MoonPyramid() {
+        levels_.emplace_back(night::moon_map().begin(), night::moon_map().end());
+        for (std::size_t size = night::kMoonMapSize / 2; size > 0; size /= 2) {
+            const std::vector<double>& fine = levels_.back();
+            std::vector<double> coarse(size * size);
+            for (std::size_t i = 0; i < coarse.size(); ++i) {
+                const std::size_t corner = 4 * size * (i / size) + 2 * (i % size);
+                coarse[i] = 0.25 * (fine[corner] + fine[corner + 1] + fine[corner + 2 * size] +
+                                    fine[corner + 2 * size + 1]);
+            }
+            levels_.push_back(std::move(coarse));
+        }
+    }
+    [[nodiscard]] double at(const glm::dvec3& selenographic, double level) const {
+        const auto low = static_cast<std::size_t>(level);
+        const glm::dvec2 place = shaders64::moon_map_place(selenographic);
+        return glm::mix(in_level(low, place), in_level(low + 1, place), level - std::floor(level)) /
+               night::kMoonMapOne;
+    }
+
+  private:
+    [[nodiscard]] double in_level(std::size_t level, const glm::dvec2& place) const {
+        const int size = night::kMoonMapSize >> level;
+        const glm::dvec2 texel = place * static_cast<double>(size) - 0.5;
+        const glm::dvec2 low = glm::floor(texel);
+        const auto value = [&](int x, int y) {
+            const int column = std::clamp(static_cast<int>(low.x) + x, 0, size - 1);
+            const int row = std::clamp(static_cast<int>(low.y) + y, 0, size - 1);
+            return levels_[level][static_cast<std::size_t>(row * size + column)];
+        };
+        const glm::dvec2 t = texel - low;
+        return glm::mix(glm::mix(value(0, 0), value(1, 0), t.x), glm::mix(value(0, 1), value(1, 1), t.x),
+                        t.y);
+    }
+    std::vector<std::vector<double>> levels_;
+};
+
 // What stands behind a view direction, without the renderer's disc geometry.
 struct Reference {
     Reference(LightTables& tables, const Scene& frame_scene, double adaptation_cd_m2)
         : scene(frame_scene),
           light(step(tables, scene)),
           air(tables.air()),
-          tone(eye::tone_parameters({}, adaptation_cd_m2)) {}
+          tone(eye::tone_parameters({}, adaptation_cd_m2)),
+          pixel_rad(0.8 * kDegree / kSize) {}
 
     // Gnomonic coordinates about a body, in radii, of what is seen at `direction`.
     [[nodiscard]] glm::dvec3 on_body(const glm::dvec3& body, double radius_rad,
@@ -61,6 +104,7 @@ struct Reference {
             (std::numbers::pi * sine * sine);
         return kRec709FromXyz * mean * profile + sky(direction);
     }
+    // Display linear.
     [[nodiscard]] glm::dvec3 moon(const glm::dvec3& direction) const {
         const Moon& m = scene.moon;
         const glm::dvec3 at = on_body(m.direction_enu, m.angular_radius_rad, direction);
@@ -68,15 +112,32 @@ struct Reference {
         const glm::dvec3 normal =
             right * at.x + glm::cross(right, m.direction_enu) * at.y - m.direction_enu * at.z;
         const double lit = shaders64::lommel_seeliger(glm::dot(normal, m.to_sun_enu), at.z);
-        const glm::dvec3 face = night::moon_tint_rgb() * night::moon_face_cd_m2(m) * lit +
-                                night::earthshine_cd_m2(m.phase_angle_rad);
-        return face * air.transmittance_rgb(scene.eye.height_m, straight_rad(direction)) + sky(direction);
+        const double sun_au = scene.sun.distance_au;
+        const glm::dvec3 face = night::moon_tint_rgb() * night::moon_face_cd_m2(m, sun_au) * lit +
+                                night::earthshine_tint_rgb() * night::earthshine_cd_m2(m.phase_angle_rad);
+        const double pixels =
+            pixel_rad / m.angular_radius_rad * night::kMoonMapSize / (2.0 * shaders64::kMoonMapReach);
+        const double level = std::log2(pixels) - 0.5 * std::log2(std::max(at.z, 0.1));
+        const double albedo = map.at(glm::transpose(m.enu_from_selenographic) * normal, std::max(level, 0.0));
+        const glm::dvec3 passed = air.transmittance_rgb(scene.eye.height_m, straight_rad(direction));
+        const shaders64::Fovea fovea = moon_fovea(scene, air, light, {}, tone);
+        const double dimmed = shaders64::foveal_factor(
+            fovea, night::moon_lit_cd_m2(m, sun_au) * shaders64::luminance_709(passed));
+        const glm::dvec3 own = face * albedo * passed;
+        const double behind = shaders64::luminance_709(sky(direction));
+        const double share = shaders64::luminance_709(own) / (shaders64::luminance_709(own) + behind);
+        shaders64::ToneParameters fovea_tone = tone;
+        fovea_tone.photopic =
+            std::max(tone.photopic, shaders64::foveal_share(shaders64::luminance_709(own)) * share);
+        return shaders64::display_linear(own * dimmed + sky(direction), fovea_tone);
     }
 
     Scene scene;
     SkyLight light;
     sky::AirTables air;
     shaders64::ToneParameters tone;
+    double pixel_rad;
+    MoonPyramid map;
 };
 
 class DiscReference : public GlTest {
@@ -104,8 +165,10 @@ class DiscReference : public GlTest {
                 if (std::hypot(place.x, place.y) > 0.96) continue;
                 if (horizontal_of(direction).elevation_rad < reference.light.horizon_elevation_rad + 2e-4)
                     continue;
-                const glm::dvec3 rgb = is_sun ? reference.sun(direction) : reference.moon(direction);
-                const glm::dvec3 exact = shaders64::shown(rgb, reference.tone) * 255.0;
+                const glm::dvec3 display =
+                    is_sun ? shaders64::display_linear(reference.sun(direction), reference.tone)
+                           : reference.moon(direction);
+                const glm::dvec3 exact = shaders64::encoded(display, reference.tone) * 255.0;
                 const Rgb drawn = picture.at(x, y);
                 worst = std::max(worst, static_cast<int>(std::ceil(std::max({std::abs(drawn.r - exact.x),
                                                                              std::abs(drawn.g - exact.y),
@@ -124,7 +187,7 @@ class DiscReference : public GlTest {
 
   private:
     // One air for all scenes of a test: its tables are the costly part.
-    Renderer renderer_{{{"only", kSize, kSize}}, undithered()};
+    Renderer renderer_{{{"only", kSize, kSize}}, without_glare()};
     LightTables tables_;
     double time_s_ = 0.0;
 };

@@ -3,9 +3,6 @@
 
 #include <cmath>
 
-#include "render/colour.h"
-#include "render/night/moon_light.h"
-#include "render/shaders/shared.h"
 #include "tests/render/gl_fixture.h"
 
 namespace skyig::render {
@@ -76,7 +73,7 @@ TEST_F(Disc, MoonIsLitFromTheSideOfTheSun) {
     }
 }
 
-TEST_F(Disc, FullMoonIsWhiteAndNewMoonHidesInTwilight) {
+TEST_F(Disc, FullMoonIsBrightAndNewMoonHidesInTwilight) {
     // By night the Earth's light shows the new Moon; a bright dusk drowns it, and nothing of the Sun's light
     // may be left on its face.
     for (const double sun_elevation : {-30.0, -3.0}) {
@@ -92,7 +89,7 @@ TEST_F(Disc, FullMoonIsWhiteAndNewMoonHidesInTwilight) {
         const int sky = draw_towards(scene, 180.0, 30.0, 0.4).at(128, 128).g;
         std::printf("sun at %5.1f deg: centre of the full Moon %d, of the new Moon %d, sky %d\n",
                     sun_elevation, full, dark, sky);
-        EXPECT_GT(full, 240);
+        EXPECT_GT(full, 185) << "a sea lies in the middle of the disc";
         EXPECT_GE(dark, sky - 1);
         if (sun_elevation > -10.0) {
             EXPECT_LE(dark, sky + 4);
@@ -155,56 +152,6 @@ TEST_F(Disc, SmallerMoonLeavesARing) {
     std::printf("inside the ring %d, outside %d\n", inside, outside);
     EXPECT_LT(inside, 245);
     EXPECT_NEAR(inside, outside, 8);
-}
-
-TEST(MoonLight, PhaseFunctionHasItsClosedFormAndItsEnds) {
-    using shaders64::lommel_seeliger_phase;
-    EXPECT_DOUBLE_EQ(lommel_seeliger_phase(0.0), 1.0);
-    EXPECT_NEAR(lommel_seeliger_phase(0.5 * std::numbers::pi), 0.3768, 5e-5);
-    EXPECT_NEAR(lommel_seeliger_phase(std::numbers::pi), 0.0, 1e-12);
-    for (double a = 0.001; a < 3.1; a += 0.01) {
-        const double direct = 1.0 - std::sin(a / 2) * std::tan(a / 2) * std::log(1.0 / std::tan(a / 4));
-        EXPECT_NEAR(lommel_seeliger_phase(a), direct, 2e-9) << a;
-        EXPECT_GE(lommel_seeliger_phase(a), lommel_seeliger_phase(a + 0.01));
-        EXPECT_NEAR(static_cast<double>(shaders32::lommel_seeliger_phase(static_cast<float>(a))),
-                    lommel_seeliger_phase(a), 2e-5);
-    }
-}
-
-TEST(MoonLight, DiscIntegratesToItsPhaseFunction) {
-    for (const double phase : {0.2, 0.9, 1.57, 2.5}) {
-        const glm::dvec3 sun{std::sin(phase), 0.0, std::cos(phase)};
-        double sum = 0.0;
-        constexpr int kSteps = 600;
-        int inside = 0;
-        for (int i = 0; i < kSteps; ++i) {
-            for (int j = 0; j < kSteps; ++j) {
-                const double x = (i + 0.5) * 2.0 / kSteps - 1.0;
-                const double y = (j + 0.5) * 2.0 / kSteps - 1.0;
-                const double rr = x * x + y * y;
-                if (rr >= 1.0) continue;
-                const glm::dvec3 normal{x, y, std::sqrt(1.0 - rr)};
-                sum += shaders64::lommel_seeliger(glm::dot(normal, sun), normal.z);
-                ++inside;
-            }
-        }
-        EXPECT_NEAR(sum / inside, shaders64::lommel_seeliger_phase(phase), 3e-3) << phase;
-    }
-}
-
-TEST(MoonLight, TintOnXyzIsTheTintOnRgb) {
-    const glm::dvec3 white_xyz = glm::inverse(kRec709FromXyz) * glm::dvec3{1.0};
-    const glm::dvec3 tinted = kRec709FromXyz * (white_xyz * night::moon_tint_xyz());
-    EXPECT_LT(glm::length(tinted - night::moon_tint_rgb()), 1e-12);
-    EXPECT_NEAR(night::moon_tint_xyz().y, 1.0, 1e-4) << "the tint changes no luminance";
-}
-
-TEST(MoonLight, FullMoonGivesAThirdOfALux) {
-    EXPECT_NEAR(night::moon_illuminance_lux(8.0 * kDegree, 384400.0), 0.26, 0.02);
-    EXPECT_NEAR(night::moon_illuminance_lux(0.0, 384400.0), 0.42, 0.02);
-    for (double a = 0.0; a < 3.1; a += 0.05) {
-        EXPECT_GT(night::moon_illuminance_lux(a, 384400.0), night::moon_illuminance_lux(a + 0.05, 384400.0));
-    }
 }
 
 }  // namespace

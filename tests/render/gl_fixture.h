@@ -63,6 +63,12 @@ class GlTest : public ::testing::Test {
         return display;
     }
 
+    [[nodiscard]] static DisplaySettings without_glare() {
+        DisplaySettings display = undithered();
+        display.glare = false;
+        return display;
+    }
+
     /// Draws all channels of a scene with a renderer that has seen nothing before.
     std::vector<Picture> draw(const std::vector<Channel>& channels, const Scene& scene,
                               const DisplaySettings& display) {

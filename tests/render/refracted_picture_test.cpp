@@ -24,7 +24,7 @@ class RefractedPicture : public GlTest {
                  view_from_enu(azimuth_deg, elevation_deg, 0.0));
         return draw(renderer_, scene)[0];
     }
-    Renderer renderer_{{{"only", kSize, kSize}}, undithered()};
+    Renderer renderer_{{{"only", kSize, kSize}}, without_glare()};
     double time_s_ = 0.0;
 
     static double elevation_deg(const Scene& scene, double y_px) {

@@ -1,6 +1,7 @@
 // Scenes made by hand for the renderer's tests: no ephemeris, no host.
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
 #include <numbers>
 #include <string>
@@ -24,6 +25,15 @@ inline glm::dvec3 at(double elevation_deg, double azimuth_deg) {
     return direction_of({elevation_deg * kDegree, azimuth_deg * kDegree});
 }
 
+/// Axes of a Moon that shows the middle of its near side, its north towards the zenith (in the zenith:
+/// towards north).
+inline glm::dmat3 moon_upright(const glm::dvec3& direction_enu) {
+    const glm::dvec3 up =
+        std::abs(direction_enu.z) < 0.999 ? glm::dvec3{0.0, 0.0, 1.0} : glm::dvec3{0.0, 1.0, 0.0};
+    const glm::dvec3 east = glm::normalize(glm::cross(up, -direction_enu));
+    return {-direction_enu, east, glm::cross(-direction_enu, east)};
+}
+
 /// A scene with the Sun and the Moon where they are asked for. Stars lie turned somehow, the same in every
 /// scene.
 inline Scene make_scene(double sun_elevation_deg, double sun_azimuth_deg, double moon_elevation_deg,
@@ -32,6 +42,7 @@ inline Scene make_scene(double sun_elevation_deg, double sun_azimuth_deg, double
     scene.eye.height_m = height_m;
     scene.sun.direction_enu = at(sun_elevation_deg, sun_azimuth_deg);
     scene.moon.direction_enu = at(moon_elevation_deg, moon_azimuth_deg);
+    scene.moon.enu_from_selenographic = moon_upright(scene.moon.direction_enu);
     scene.moon.to_sun_enu = scene.sun.direction_enu;
     const double cosine = -glm::dot(scene.moon.direction_enu, scene.sun.direction_enu);
     scene.moon.phase_angle_rad =

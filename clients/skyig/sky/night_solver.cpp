@@ -82,7 +82,7 @@ void NightSolver::light_by_sun_and_moon(const render::Plan& plan) {
     const render::Horizontal moon = render::horizontal_of(scene_.moon.direction_enu);
     moon_sky_.begin(scene_.sky, tables_, height_m, moon.elevation_rad, false);
     moon_sky_.build_all();
-    light_.moon = {&moon_sky_, moon, render::moon_scale_xyz(scene_.moon, tables_.model(), plan.moon_share),
+    light_.moon = {&moon_sky_, moon, render::moon_scale_xyz(scene_, tables_.model(), plan.moon_share),
                    nullptr};
 }
 

@@ -42,3 +42,11 @@ SKYIG_INLINE SunInShadow sun_in_shadow(real from_axis, real umbra, real penumbra
     sun.refracted = (deep + (high - deep) * outwards) * (level * (real(1.0) - direct));
     return sun;
 }
+
+// The albedo map is equal-area about the middle of the near side and reaches 10 deg beyond the limb, sin 50 deg on either
+// side; its texture coordinates of a selenographic direction (x to the mean Earth point, z to the north pole).
+const real kMoonMapReach = real(1.5320888862);
+SKYIG_INLINE rvec2 moon_map_place(rvec3 selenographic) {
+    real scale = sqrt(real(2.0) / max(real(1.0) + selenographic.x, real(1e-6)));
+    return rvec2(selenographic.y, selenographic.z) * (scale * real(0.5) / kMoonMapReach) + rvec2(real(0.5));
+}

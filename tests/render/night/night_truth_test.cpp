@@ -246,7 +246,7 @@ TEST(GroundIlluminance, MoonsIsTheTablesWithinAFactor) {
         const double sky = drawn.sky_lux();
         const double seen_rad = drawn.light().refraction.apparent_from_true(moon_deg * kDegree);
         const double scale =
-            static_cast<double>(moon_scale_xyz(drawn.scene.moon, drawn.air().model(), 1.0).y);
+            static_cast<double>(moon_scale_xyz(drawn.scene, drawn.air().model(), 1.0).y);
         const double direct =
             scale * drawn.air().direct_sun_xyz(0.0, seen_rad).y * std::max(0.0, std::sin(seen_rad));
         const double ratio = (sky + direct) / row.number("E_h_lux");
