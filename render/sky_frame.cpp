@@ -124,7 +124,12 @@ void SkyFrame::tone_screens(const Scene& scene, double pixel_rad) {
     }
     if (target_ == Target::kDisplay) {
         tones_ = display_tones_;
-        plan_stars(plan_, scene, darkest_sky, faintest_mag);
+        PointBackgrounds background{darkest_sky, {}};
+        for (std::size_t i = 0; i < kPlanetCount; ++i) {
+            const Horizontal at = horizontal_of(scene.planets[i].direction_enu);
+            background.planets_cd_m2[i] = luminance_cd_m2(at.elevation_rad, at.azimuth_rad);
+        }
+        plan_stars(plan_, scene, background, faintest_mag);
         return;
     }
     exposure_exponent_ = eye::exposure_exponent(target_, adaptation_.luminance_cd_m2());
