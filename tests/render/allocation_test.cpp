@@ -7,6 +7,7 @@
 
 #include "render/gl/texture.h"
 #include "render/light_tables.h"
+#include "render/sky_frame.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/support/allocation_count.h"
 
@@ -123,6 +124,34 @@ TEST_F(Allocation, NorDoFramesWithAnotherRenderersPicture) {
         flight.frames(kWarmUpFrames);
         EXPECT_EQ(flight.frames(100), 0) << name;
     }
+}
+
+// Without GL: what an evening brings in, and another Milky Way by night.
+TEST(FrameAllocation, NothingIsAllocatedAtNightfallNorForAnotherMilkyWay) {
+    Scene scene = make_scene(5.0, 0.0, -40.0, 180.0, 500.0);
+    SkyFrame frame({}, {});
+    frame.prepare(scene, 8e-4);
+    const long before = static_cast<long>(skyig::tests::allocation_count());
+    std::size_t drawn = 0;
+    const auto frames = [&](int count, double sun_deg) {
+        scene.sun.direction_enu = at(sun_deg, 0.0);
+        for (int i = 0; i < count; ++i) {
+            scene.time_s += 0.03;
+            frame.prepare(scene, 8e-4);
+            drawn += frame.plan().needs(Pass::kMilkyWay) && frame.milky_way().map().complete() ? 1 : 0;
+        }
+    };
+    frames(20, -2.5);
+    frames(10, -4.0);
+    frames(1, -35.0);
+    EXPECT_EQ(drawn, 1U);
+    scene.night.seed = 2;
+    constexpr int kRowFrames = night::MilkyWayMap::kHeight / night::MilkyWayMap::kRowsAFrame;
+    frames(kRowFrames, -35.0);
+    EXPECT_EQ(drawn, 1U) << "it is made in slices";
+    frames(5, -35.0);
+    EXPECT_EQ(drawn, 6U);
+    EXPECT_EQ(static_cast<long>(skyig::tests::allocation_count()) - before, 0);
 }
 
 }  // namespace
