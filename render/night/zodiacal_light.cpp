@@ -97,12 +97,14 @@ double zodiacal_s10(double longitude_rad, double latitude_rad) noexcept {
 double zodiacal_s10(const glm::dvec3& direction_gcrs, const glm::dvec3& sun_gcrs) noexcept {
     static const double c = std::cos(kObliquity_rad);
     static const double s = std::sin(kObliquity_rad);
-    // The Sun is on the ecliptic.
     const glm::dvec3 pole{0.0, -s, c};
-    const double towards = glm::dot(direction_gcrs, sun_gcrs);
-    const double aside = glm::dot(pole, glm::cross(sun_gcrs, direction_gcrs));
-    const double north = glm::dot(pole, direction_gcrs);
-    return zodiacal_s10(std::atan2(aside, towards), std::atan2(north, std::hypot(towards, aside)));
+    const double north = std::abs(glm::dot(pole, direction_gcrs));
+    const double level = glm::length(glm::cross(pole, direction_gcrs));
+    // cos elongation = cos latitude cos longitude, the Sun on the ecliptic.
+    const double apart = glm::length(glm::cross(sun_gcrs, direction_gcrs));
+    const double aside = std::sqrt(std::max(0.0, (apart - north) * (apart + north)));
+    const double towards = glm::dot(sun_gcrs, direction_gcrs);
+    return zodiacal_s10(std::atan2(aside, towards), std::atan2(north, level));
 }
 
 double typical_zodiacal_s10() noexcept {
