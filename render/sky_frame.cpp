@@ -8,8 +8,6 @@
 
 #include "render/eye/exposure.h"
 #include "render/eye/tone_curve.h"
-#include "render/night/natural_light.h"
-#include "render/night/starlight.h"
 #include "render/star_field.h"
 
 namespace skyig::render {
@@ -145,9 +143,7 @@ void SkyFrame::refresh_milky_way(const Scene& scene) {
         milky_way_shown_ = false;
         return;
     }
-    light_.milky_way = {&milky_way_.map(),
-                        night::galactic_from_gcrs() * glm::transpose(scene.stars.enu_from_gcrs),
-                        static_cast<float>(plan_.night_share * night::starlight_share(scene.night))};
+    light_.milky_way = lit_belt(scene, milky_way_.map(), plan_.night_share);
     milky_way_.shade(light_, tones_, first || !milky_way_shown_);
     milky_way_shown_ = true;
 }
