@@ -44,13 +44,21 @@ glm::dvec3 towards(double elevation_deg) {
     return render::direction_of({elevation_deg * kDegree, 0.0});
 }
 
-/// Rows are added to one vector, table by table.
+/// Rows are added to one vector, table by table; what has not the unit "mag" is compared as a ratio.
 class Rows {
   public:
     explicit Rows(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    void add(std::string_view model, std::string_view cases, double off_mag) {
-        rows_.push_back({std::string(model), std::string(cases), off_mag});
+    struct Values {
+        const char* unit;
+        double known;
+        double ours;
+    };
+    void add(std::string_view model, std::string_view cases, std::string_view row, const Values& values) {
+        const double off_mag = std::string_view(values.unit) == "mag" ? values.ours - values.known
+                                                                      : magnitudes(values.ours, values.known);
+        rows_.push_back({std::string(model), std::string(cases), std::string(row), values.unit, values.known,
+                         values.ours, off_mag});
     }
     [[nodiscard]] TruthTable table(const char* name) const { return TruthTable(folder_ / name); }
     [[nodiscard]] std::vector<NightRow> take() { return std::move(rows_); }
@@ -78,7 +86,7 @@ double anchor(const TruthTable& table, std::string_view name) {
 
 void add_sources(const TruthTable& known, Rows& rows) {
     const auto add = [&](std::string_view model, std::string_view name, double ours_cd_m2) {
-        rows.add(model, kMoonless, magnitudes(ours_cd_m2, anchor(known, name)));
+        rows.add(model, kMoonless, name, {"cd/m2", anchor(known, name), ours_cd_m2});
     };
     add("airglow", "airglow zenith solar minimum",
         night::kS10_cd_m2 * night::airglow_zenith_s10(0.0) * night::airglow_path(0.5 * kPi, 0.0, false).far);
@@ -108,7 +116,7 @@ void add_towns(const TruthTable& known, StillLight& light, Rows& rows) {
         const double known_cd_m2 = anchor(known, name);
         scene.night.cities[0].zenith_cd_m2 = known_cd_m2 - natural_cd_m2;
         light.settle(scene);
-        rows.add("towns", "zenith of towns", magnitudes(light.zenith_cd_m2(), known_cd_m2));
+        rows.add("towns", "zenith of towns", name, {"cd/m2", known_cd_m2, light.zenith_cd_m2()});
     }
 }
 
@@ -135,8 +143,10 @@ void add_whole_skies(const TruthTable& known, StillLight& light, Rows& rows) {
             ++zeniths;
         }
         const std::string_view name = render::kNightModelNames[static_cast<std::size_t>(model)];
-        rows.add(name, "moonless zenith", zenith_mag / zeniths);
-        rows.add(name, "ground, moonless", ground_mag);
+        const auto mean = [](double level, double off_mag) { return level * std::pow(10.0, -0.4 * off_mag); };
+        rows.add(name, "moonless zenith", "mean",
+                 {"cd/m2", zenith_cd_m2, mean(zenith_cd_m2, zenith_mag / zeniths)});
+        rows.add(name, "ground, moonless", "mean", {"lux", ground_lux, mean(ground_lux, ground_mag)});
     }
 }
 
@@ -147,9 +157,8 @@ void add_zodiacal_map(Rows& rows) {
         for (const int b_deg : {0, 5, 10, 15, 20, 25, 30, 45, 60, 75, 90}) {
             const std::string column = fmt::format("b{}", b_deg);
             if (table.text(row, column).empty()) continue;  // too near to the Sun to be measured
-            rows.add(
-                "zodiacal", "map of the zodiacal light",
-                magnitudes(night::zodiacal_s10(longitude_rad, b_deg * kDegree), table.number(row, column)));
+            rows.add("zodiacal", "map of the zodiacal light", "",
+                     {"S10", table.number(row, column), night::zodiacal_s10(longitude_rad, b_deg * kDegree)});
         }
     }
 }
@@ -161,8 +170,8 @@ void add_starlight_map(const std::filesystem::path& path, Rows& rows) {
         for (int l_deg = 0; l_deg < 360; l_deg += 10) {
             const night::Starlight light =
                 night::starlight_s10(l_deg * kDegree, table.number(row, "b_deg") * kDegree);
-            rows.add("starlight", "maps of Pioneer 10 and 11",
-                     magnitudes(light.even + light.belt, table.number(row, fmt::format("l{}", l_deg))));
+            rows.add("starlight", "maps of Pioneer 10 and 11", "",
+                     {"S10", table.number(row, fmt::format("l{}", l_deg)), light.even + light.belt});
         }
     }
 }
@@ -170,9 +179,11 @@ void add_starlight_map(const std::filesystem::path& path, Rows& rows) {
 void add_limiting_magnitudes(Rows& rows) {
     const TruthTable table = rows.table("limiting_magnitude.csv");
     for (std::size_t row = 0; row < table.rows(); ++row) {
-        const double lux = render::eye::threshold_lux(table.number(row, "background_cd_m2"));
-        rows.add("stars", "limiting magnitude",
-                 magnitudes(lux, night::star_illuminance_lux(table.number(row, "limit_V_mag"))));
+        const double background_cd_m2 = table.number(row, "background_cd_m2");
+        rows.add(
+            "stars", "limiting magnitude", fmt::format("before {:.3g} cd/m2", background_cd_m2),
+            {"mag", table.number(row, "limit_V_mag"),
+             magnitudes(render::eye::threshold_lux(background_cd_m2), night::star_illuminance_lux(0.0))});
     }
 }
 
@@ -182,15 +193,21 @@ void add_moon_magnitudes(const TruthTable& table, Rows& rows) {
         const auto lux = [phase_rad = phase_deg * kDegree](double side) {
             return night::moon_illuminance_lux(phase_rad, 384400.0, side * phase_rad);
         };
-        const double mean_lux = 0.5 * (lux(1.0) + lux(-1.0));
-        const auto off_mag = [&](const char* column) {
-            return magnitudes(mean_lux, night::star_illuminance_lux(table.number(row, column)));
-        };
+        const double ours_mag = magnitudes(0.5 * (lux(1.0) + lux(-1.0)), night::star_illuminance_lux(0.0));
+        const std::string phase = fmt::format("phase {:g} deg", phase_deg);
         if (phase_deg >= kSurge_deg && phase_deg <= 150.0)
-            rows.add("moon", "magnitude by Allen, 7..150 deg", off_mag("V_allen"));
+            rows.add("moon", "magnitude by Allen, 7..150 deg", phase,
+                     {"mag", table.number(row, "V_allen"), ours_mag});
         // Where the law was measured.
-        if (phase_deg <= 97.0) rows.add("moon", "magnitude by ROLO, 0..97 deg", off_mag("V_rolo550"));
+        if (phase_deg <= 97.0)
+            rows.add("moon", "magnitude by ROLO, 0..97 deg", phase,
+                     {"mag", table.number(row, "V_rolo550"), ours_mag});
     }
+}
+
+std::string moon_row(const TruthTable& table, std::size_t row) {
+    return fmt::format("phase {} deg, Moon at {} deg", table.text(row, "phase_angle_deg"),
+                       table.text(row, "moon_alt_deg"));
 }
 
 void add_moonlit_zenith(StillLight& light, Rows& rows) {
@@ -202,7 +219,7 @@ void add_moonlit_zenith(StillLight& light, Rows& rows) {
         scene.moon.phase_angle_rad = phase_deg * kDegree;
         light.settle(scene);
         rows.add("moon", phase_deg < kSurge_deg ? "moonlit zenith, opposition" : "moonlit zenith",
-                 magnitudes(light.zenith_cd_m2(), table.number(row, "total_cd_m2")));
+                 moon_row(table, row), {"cd/m2", table.number(row, "total_cd_m2"), light.zenith_cd_m2()});
     }
 }
 
@@ -219,7 +236,8 @@ void add_moonlit_ground(StillLight& light, Rows& rows) {
         scene.moon.phase_angle_rad = phase_deg * kDegree;
         light.settle(scene);
         rows.add("moon", phase_deg > 120.0 ? "ground, Moon beyond 120 deg" : "ground, Moon of 7..120 deg",
-                 magnitudes(light.sky_lux() + light.moon_lux(), table.number(row, "E_h_lux")));
+                 moon_row(table, row),
+                 {"lux", table.number(row, "E_h_lux"), light.sky_lux() + light.moon_lux()});
     }
 }
 
@@ -238,8 +256,8 @@ void add_twilight(StillLight& light, Rows& rows) {
         scene.eye.height_m = std::strtod(site.c_str() + height, nullptr);
         scene.sun.direction_enu = towards(sun_deg);
         light.settle(scene);
-        rows.add("sun", "twilight zenith",
-                 magnitudes(light.zenith_cd_m2(), table.number(row, "luminance_cd_m2")));
+        rows.add("sun", "twilight zenith", fmt::format("Sun at {:g} deg, {}", sun_deg, site),
+                 {"cd/m2", table.number(row, "luminance_cd_m2"), light.zenith_cd_m2()});
     }
 }
 
@@ -254,7 +272,8 @@ void add_sunlit_ground(double visibility_m, StillLight& light, Rows& rows) {
         rows.add("sun",
                  fmt::format("ground, Sun {} -6 deg, visibility {:g} km", sun_deg >= -6.0 ? "above" : "below",
                              1e-3 * visibility_m),
-                 magnitudes(light.sky_lux() + light.sun_lux(), table.number(row, "E_h_lux")));
+                 fmt::format("Sun at {:g} deg", sun_deg),
+                 {"lux", table.number(row, "E_h_lux"), light.sky_lux() + light.sun_lux()});
     }
 }
 

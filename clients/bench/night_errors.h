@@ -13,6 +13,11 @@ namespace skyig::clients::bench {
 struct NightRow {
     std::string model;
     std::string cases;
+    /// Which one; empty in long tables.
+    std::string row;
+    std::string unit;
+    double known = 0.0;
+    double ours = 0.0;
     /// What we have beyond what is known, magnitudes: > 0 is too dark.
     double off_mag = 0.0;
 };

@@ -75,6 +75,16 @@ std::vector<ErrorEntry> entries_of(const std::string& model, const std::vector<N
     return entries;
 }
 
+/// Those of the short tables.
+std::vector<RowEntry> listed(const std::string& model, const std::vector<NightRow>& rows) {
+    std::vector<RowEntry> list;
+    for (const NightRow& row : rows) {
+        if (row.model == model && !row.row.empty())
+            list.push_back({row.cases, row.row, row.unit, row.known, row.ours, row.off_mag});
+    }
+    return list;
+}
+
 /// Unit vectors, even over the sphere.
 using Vectors = std::array<glm::dvec3, kDirections>;
 
@@ -267,7 +277,8 @@ Report measure_night_errors(const std::filesystem::path& truth) {
     report.plots = {{"sources", "Light", kAllRows, {{"of one direction or star", kLight, kLight}}}};
     const std::vector<NightRow> rows = night_rows(truth, kReference);
     for (const NightModelText& model : kModels)
-        report.models.push_back({model.name, model.what, entries_of(model.name, rows), {}});
+        report.models.push_back(
+            {model.name, model.what, entries_of(model.name, rows), {}, {}, listed(model.name, rows)});
     return report;
 }
 
