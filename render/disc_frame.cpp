@@ -79,8 +79,9 @@ shaders64::Fovea moon_fovea(const Scene& scene, const sky::AirTables& air, const
     const double straight_rad =
         std::max(light.straight_elevation_rad(seen_rad), light.straight_horizon_rad + kWholeDisc_rad);
     const double passed = shaders64::luminance_709(air.transmittance_rgb(light.eye_height_m, straight_rad));
-    const double lit_cd_m2 = std::max(passed * night::moon_lit_cd_m2(scene.moon, scene.sun.distance_au), 1.0);
-    return eye::fovea(display, tone, 1e-4 * lit_cd_m2, lit_cd_m2);
+    const double mean_cd_m2 =
+        std::max(passed * night::moon_mean_cd_m2(scene.moon, scene.sun.distance_au), 1.0);
+    return eye::fovea(display, tone, 1e-4 * mean_cd_m2, mean_cd_m2);
 }
 
 }  // namespace skyig::render

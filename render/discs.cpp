@@ -167,7 +167,7 @@ MoonDisc::MoonDisc()
       map_(gl::TexelFormat::kR32F, night::kMoonMapSize, night::kMoonMapSize, 0, kMapLevels),
       face_(pass_.program().uniform("u_full_cd_m2")),
       earthshine_(pass_.program().uniform("u_earthshine_cd_m2")),
-      lit_(pass_.program().uniform("u_lit_cd_m2")),
+      mean_(pass_.program().uniform("u_mean_cd_m2")),
       veil_(pass_.program().uniform("u_veil_cd_m2")),
       to_sun_(pass_.program().uniform("u_to_sun_disc")),
       shadow_axis_(pass_.program().uniform("u_shadow_axis_disc")),
@@ -206,7 +206,7 @@ void MoonDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyL
     program.set(face_, glm::vec3{night::moon_tint_rgb() * face_cd_m2});
     program.set(earthshine_,
                 glm::vec3{night::earthshine_tint_rgb() * night::earthshine_cd_m2(moon.phase_angle_rad)});
-    program.set(lit_, static_cast<float>(night::moon_lit_cd_m2(moon, sun_au)));
+    program.set(mean_, static_cast<float>(night::moon_mean_cd_m2(moon, sun_au)));
     program.set(veil_, veil.rgb_cd_m2);
     program.set(veil_own_, veil.own_cd_m2);
     program.set(to_sun_, to_sun_disc);

@@ -86,7 +86,7 @@ class MoonDisc {
   private:
     DiscPass pass_;
     gl::Texture map_;
-    int face_, earthshine_, lit_, veil_, to_sun_, shadow_axis_, shadow_radii_, selenographic_, map_level_,
+    int face_, earthshine_, mean_, veil_, to_sun_, shadow_axis_, shadow_radii_, selenographic_, map_level_,
         veil_own_, fovea_factor_, fovea_slope_;
 };
 

@@ -29,11 +29,19 @@ constexpr double kStarMargin_mag = 0.07;
 constexpr double kStrongestFlicker = 1.5;
 constexpr double kFlickerHeight_m = 8e3;
 constexpr double kNoStarIsFainter_mag = 99.0;
+constexpr double kNothing_mag = 999.0;
 
-double brightest_point_mag(const Scene& scene) {
-    double brightest = kBrightestStar_mag;
-    for (const Planet& planet : scene.planets) {
-        if (planet.direction_enu.z > kLowestPlanet_sine) brightest = std::min(brightest, planet.magnitude);
+// Of the stars and planets that their sky lets through; none: kNothing_mag.
+double brightest_seen_mag(const Scene& scene, const PointBackgrounds& background) {
+    const auto seen = [](double magnitude, double background_cd_m2) {
+        return magnitude <= faintest_visible_mag(background_cd_m2) + kStarMargin_mag;
+    };
+    double brightest = seen(kBrightestStar_mag, background.darkest_cd_m2) ? kBrightestStar_mag : kNothing_mag;
+    for (std::size_t i = 0; i < kPlanetCount; ++i) {
+        const Planet& planet = scene.planets[i];
+        if (planet.direction_enu.z > kLowestPlanet_sine &&
+            seen(planet.magnitude, background.planets_cd_m2[i]))
+            brightest = std::min(brightest, planet.magnitude);
     }
     return brightest;
 }
@@ -245,11 +253,19 @@ void plan_glare(Plan& plan, Pass pass, bool enabled, double reach_rad) noexcept 
                                                               static_cast<int>(Glare::kSectors)};
 }
 
-void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept {
-    const double brightest_mag = brightest_point_mag(scene);
-    const double limit_mag = faintest_visible_mag(background_cd_m2) + kStarMargin_mag;
+PointBackgrounds PointBackgrounds::even(double luminance_cd_m2) noexcept {
+    PointBackgrounds background;
+    background.darkest_cd_m2 = luminance_cd_m2;
+    background.planets_cd_m2.fill(luminance_cd_m2);
+    return background;
+}
+
+void plan_stars(Plan& plan, const Scene& scene, const PointBackgrounds& background,
+                double half_code_mag) noexcept {
+    const double brightest_mag = brightest_seen_mag(scene, background);
+    const double limit_mag = faintest_visible_mag(background.darkest_cd_m2) + kStarMargin_mag;
     const bool forced = plan.forced[static_cast<std::size_t>(Pass::kStars)];
-    const bool outshone = limit_mag < brightest_mag || half_code_mag < brightest_mag;
+    const bool outshone = half_code_mag < brightest_mag;
     const double flicker =
         kStrongestFlicker * std::exp(-std::max(scene.eye.height_m, 0.0) / kFlickerHeight_m);
     plan.stars.limit_mag = forced ? kNoStarIsFainter_mag : limit_mag;

@@ -109,9 +109,17 @@ struct Plan {
 /// resolves below the eye \param lit  whether Sun or Moon light the air over a sea
 void plan_waves(Plan& plan, const Scene& scene, const sky::SeaWaves& waves, bool lit) noexcept;
 
-/// Decides on the stars and planets. \param background_cd_m2  the darkest sky that they stand before
-/// \param half_code_mag  fainter ones change no picture
-void plan_stars(Plan& plan, const Scene& scene, double background_cd_m2, double half_code_mag) noexcept;
+/// The sky that points of light stand before, cd/m2.
+struct PointBackgrounds {
+    double darkest_cd_m2 = 0.0;
+    std::array<double, kPlanetCount> planets_cd_m2{};
+
+    [[nodiscard]] static PointBackgrounds even(double luminance_cd_m2) noexcept;
+};
+
+/// Decides on the stars and planets. \param half_code_mag  fainter ones change no picture
+void plan_stars(Plan& plan, const Scene& scene, const PointBackgrounds& background,
+                double half_code_mag) noexcept;
 
 /// Decides on the Milky Way. \param most_codes  what its brightest part would add to the darkest sky, display
 /// codes

@@ -258,7 +258,8 @@ Report measure_night_errors(const std::filesystem::path& truth) {
     report.title = "Light of the night sky";
     report.cases =
         "every row of the night's tables, asked for through the light that is drawn, in magnitudes (0.33 is "
-        "a factor of 1.35, 0.51 one of 1.6). `sources`: geometric means of twelve midnights of a year, 30 "
+        "a factor of 1.35, 0.51 one of 1.6; `off` > 0 where we are too dark, of the limiting magnitude where "
+        "we see more). `sources`: geometric means of twelve midnights of a year, 30 "
         "deg north and south, the zenith's without those that have the Milky Way there. Measured twilights "
         "differ by up to 0.9 mag between sites; the tables of the ground are for an average clear sky "
         "(visibility 40 km; 80 km is a scene's default) and, like the moonlit zenith's, without the Moon's "

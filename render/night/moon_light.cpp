@@ -71,18 +71,18 @@ double moon_face_cd_m2(const Moon& moon, double sun_distance_au) noexcept {
            (solid_angle * sun_distance_au * sun_distance_au * moon_map_mean(longitude_rad));
 }
 
-double moon_lit_cd_m2(const Moon& moon, double sun_distance_au) noexcept {
-    const double phase_rad = std::clamp(moon.phase_angle_rad, 0.0, std::numbers::pi - 1e-3);
-    const double lit_share = 0.5 * (1.0 + std::cos(phase_rad));
-    return moon_face_cd_m2(moon, sun_distance_au) * moon_map_mean(sun_longitude_rad(moon)) *
-           shaders64::lommel_seeliger_phase(phase_rad) / lit_share;
-}
-
 double earthshine_cd_m2(double phase_angle_rad) noexcept {
     // Full Earth gives 14 lux on the Moon; the Moon's geometric albedo is 0.12 in retro-reflection.
     constexpr double kFullEarth_lux = 14.0;
     const double phase_of_earth = std::numbers::pi - std::clamp(phase_angle_rad, 0.0, std::numbers::pi);
     return kFullEarth_lux * shaders64::lommel_seeliger_phase(phase_of_earth) * 0.12 / std::numbers::pi;
+}
+
+double moon_mean_cd_m2(const Moon& moon, double sun_distance_au) noexcept {
+    const double phase_rad = std::clamp(moon.phase_angle_rad, 0.0, std::numbers::pi);
+    return moon_face_cd_m2(moon, sun_distance_au) * moon_map_mean(sun_longitude_rad(moon)) *
+               shaders64::lommel_seeliger_phase(phase_rad) +
+           earthshine_cd_m2(phase_rad);
 }
 
 glm::dvec3 moon_tint_rgb() noexcept {

@@ -121,15 +121,15 @@ struct Reference {
         const double albedo = map.at(glm::transpose(m.enu_from_selenographic) * normal, std::max(level, 0.0));
         const glm::dvec3 passed = air.transmittance_rgb(scene.eye.height_m, straight_rad(direction));
         const shaders64::Fovea fovea = moon_fovea(scene, air, light, {}, tone);
-        const double dimmed = shaders64::foveal_factor(
-            fovea, night::moon_lit_cd_m2(m, sun_au) * shaders64::luminance_709(passed));
         const glm::dvec3 own = face * albedo * passed;
+        const double dimmed = shaders64::foveal_factor(
+            fovea,
+            shaders64::foveal_adaptation(night::moon_mean_cd_m2(m, sun_au) * shaders64::luminance_709(passed),
+                                         shaders64::luminance_709(own)));
         const double behind = shaders64::luminance_709(sky(direction));
         const double share = shaders64::luminance_709(own) / (shaders64::luminance_709(own) + behind);
-        shaders64::ToneParameters fovea_tone = tone;
-        fovea_tone.photopic =
-            std::max(tone.photopic, shaders64::foveal_share(shaders64::luminance_709(own)) * share);
-        return shaders64::display_linear(own * dimmed + sky(direction), fovea_tone);
+        const double photopic = shaders64::foveal_share(shaders64::luminance_709(own)) * share;
+        return shaders64::seen_before(own * dimmed, photopic, sky(direction), tone);
     }
 
     Scene scene;

@@ -115,7 +115,8 @@ TEST_F(DiscSum, MoonsPixelsAddUpToItsIlluminanceAtAnyFieldOfViewAndPhase) {
         const double passed = shaders64::luminance_709(
             night::moon_tint_rgb() * tables.air().transmittance_rgb(0.0, seen_at.elevation_rad));
         const double lux = passed * night::moon_illuminance_lux(scene.moon, 1.0);
-        const double mean = passed * night::moon_lit_cd_m2(scene.moon, 1.0);
+        const double lit_share = 0.5 * (1.0 + std::cos(scene.moon.phase_angle_rad));
+        const double mean = passed * night::moon_mean_cd_m2(scene.moon, 1.0) / lit_share;
         const double flattened = light.refraction.vertical_scale(seen_at.elevation_rad);
         for (const double half_width_deg : kHalfWidths_deg) {
             disc.prepare(scene, tables.air(), light, pixel_rad(half_width_deg), linear_tone(mean), false, {},

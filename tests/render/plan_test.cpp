@@ -69,9 +69,10 @@ TEST(Plan, StaleAirIsAskedForAnew) {
 TEST(Plan, StarsGoBecauseTheSkyIsBrightNotBecauseTheSunIsUp) {
     const Scene scene = make_scene(30, 180, 10, 0, 1000);
     Plan plan = plan_of(scene, fresh(scene));
-    plan_stars(plan, scene, 2000.0, kNone_mag);
+    plan_stars(plan, scene, PointBackgrounds::even(2000.0), kNone_mag);
     EXPECT_FALSE(plan.needs(Pass::kStars));
-    plan_stars(plan, scene, 2e-4, kNone_mag);  // the same Sun, seen from above the air
+    plan_stars(plan, scene, PointBackgrounds::even(2e-4),
+               kNone_mag);  // the same Sun, seen from above the air
     EXPECT_TRUE(plan.needs(Pass::kStars));
     EXPECT_GT(plan.stars.limit_mag, 6.5);
 }
@@ -80,20 +81,20 @@ TEST(Plan, StarsTwinkleWhereItShowsAndIsAskedFor) {
     Scene scene = make_scene(-30, 180, -30, 0, 1000);
     Plan plan = plan_of(scene, fresh(scene));
     constexpr double kHalfCode_mag = 7.0;
-    plan_stars(plan, scene, 2e-4, kHalfCode_mag);
+    plan_stars(plan, scene, PointBackgrounds::even(2e-4), kHalfCode_mag);
     EXPECT_FALSE(plan.stars.twinkle);
     scene.sky.star_scintillation = true;
-    plan_stars(plan, scene, 2e-4, kHalfCode_mag);
+    plan_stars(plan, scene, PointBackgrounds::even(2e-4), kHalfCode_mag);
     EXPECT_TRUE(plan.stars.twinkle);
     EXPECT_EQ(plan[Pass::kStars].reason, "some stars outshine the sky, and twinkle");
     EXPECT_NEAR(plan.stars.twinkle_limit_mag, kHalfCode_mag + 2.5 * std::log10(1.5 * std::exp(-0.125)), 1e-9);
     // Nothing is left of the air.
     scene.eye.height_m = 200e3;
-    plan_stars(plan, scene, 2e-4, kHalfCode_mag);
+    plan_stars(plan, scene, PointBackgrounds::even(2e-4), kHalfCode_mag);
     EXPECT_FALSE(plan.stars.twinkle);
     // No star is bright enough for a half code to come and go.
     scene.eye.height_m = 12e3;
-    plan_stars(plan, scene, 2e-4, -0.5);
+    plan_stars(plan, scene, PointBackgrounds::even(2e-4), -0.5);
     EXPECT_TRUE(plan.needs(Pass::kStars));
     EXPECT_FALSE(plan.stars.twinkle);
 }
@@ -114,17 +115,21 @@ TEST(Plan, PlanetsCountAsStarsForTheDecision) {
     Scene scene = make_scene(5, 180, -10, 0, 0);
     const double background = 2000.0;
     Plan plan = plan_of(scene, fresh(scene));
-    plan_stars(plan, scene, background, kNone_mag);
+    plan_stars(plan, scene, PointBackgrounds::even(background), kNone_mag);
     ASSERT_FALSE(plan.needs(Pass::kStars));
     scene.planets[1] = {tests::at(30, 200), -4.5, 0.8};
-    plan_stars(plan, scene, background, kNone_mag);
+    plan_stars(plan, scene, PointBackgrounds::even(background), kNone_mag);
     EXPECT_TRUE(plan.needs(Pass::kStars));
     scene.planets[1].direction_enu = tests::at(-30, 200);
-    plan_stars(plan, scene, background, kNone_mag);
+    plan_stars(plan, scene, PointBackgrounds::even(background), kNone_mag);
     EXPECT_FALSE(plan.needs(Pass::kStars));
     scene.planets[1].direction_enu = tests::at(30, 200);
+    PointBackgrounds beside_the_sun = PointBackgrounds::even(background);
+    beside_the_sun.planets_cd_m2[1] = 40.0 * background;
+    plan_stars(plan, scene, beside_the_sun, kNone_mag);
+    EXPECT_FALSE(plan.needs(Pass::kStars)) << "before its own sky it is not seen";
     scene.stars.enabled = false;
-    plan_stars(plan, scene, background, kNone_mag);
+    plan_stars(plan, scene, PointBackgrounds::even(background), kNone_mag);
     EXPECT_FALSE(plan.needs(Pass::kStars));
 }
 
@@ -174,7 +179,7 @@ TEST(Plan, DiscsBelowTheDippedHorizonAreDropped) {
 TEST(Plan, AtNoonNeitherStarsNorMoonlightAreDrawn) {
     const Scene noon = make_scene(60, 180, 20, 90, 1000);
     Plan plan = plan_of(noon, fresh(noon));
-    plan_stars(plan, noon, 1500.0, -3.0);
+    plan_stars(plan, noon, PointBackgrounds::even(1500.0), -3.0);
     for (const Pass pass : {Pass::kStars, Pass::kMoonSky, Pass::kCorona})
         EXPECT_FALSE(plan.needs(pass)) << pass_name(pass);
 }
@@ -183,9 +188,9 @@ TEST(Plan, StarsThatAddLessThanHalfACodeAreLeftOut) {
     Scene scene = make_scene(5, 180, -10, 0, 0);
     scene.planets[1] = {tests::at(30, 200), -4.5, 0.8};
     Plan plan = plan_of(scene, fresh(scene));
-    plan_stars(plan, scene, 2000.0, -4.4);
+    plan_stars(plan, scene, PointBackgrounds::even(2000.0), -4.4);
     EXPECT_TRUE(plan.needs(Pass::kStars));
-    plan_stars(plan, scene, 2000.0, -4.6);
+    plan_stars(plan, scene, PointBackgrounds::even(2000.0), -4.6);
     EXPECT_FALSE(plan.needs(Pass::kStars));
 }
 
@@ -194,7 +199,7 @@ TEST(Plan, ForcedPassesRunAndSaySo) {
     Quality quality;
     quality.forced.set();
     Plan plan = make_plan(noon, fresh(noon), tests::refraction_of(noon), quality);
-    plan_stars(plan, noon, 1500.0, -3.0);
+    plan_stars(plan, noon, PointBackgrounds::even(1500.0), -3.0);
     for (const PlannedPass& pass : plan.passes)
         EXPECT_TRUE(pass.needed) << pass_name(pass.pass);
     EXPECT_EQ(plan[Pass::kStars].reason, "forced");
@@ -253,7 +258,7 @@ TEST(Plan, DomeKeepsItsSizeUntilItIsClearlyTooFine) {
 TEST(Plan, EveryPassSaysWhy) {
     for (const auto& named : tests::four_times()) {
         Plan plan = plan_of(named.scene, {});
-        plan_stars(plan, named.scene, 1.0, kNone_mag);
+        plan_stars(plan, named.scene, PointBackgrounds::even(1.0), kNone_mag);
         for (std::size_t i = 0; i < kPassCount; ++i) {
             EXPECT_EQ(static_cast<std::size_t>(plan.passes[i].pass), i);
             EXPECT_FALSE(plan.passes[i].reason.empty()) << pass_name(plan.passes[i].pass);

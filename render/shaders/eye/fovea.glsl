@@ -13,6 +13,10 @@ SKYIG_INLINE real foveal_factor(Fovea fovea, real luminance) {
     return exp2(min(fovea.log2_factor + fovea.slope * log2(max(luminance, real(1e-9))), real(0.0)));
 }
 
+// What the fovea is adapted to at one place of what is looked at: as much to the whole of it as to that place, so that the
+// dark part of the Moon is not lost beside its crescent.
+SKYIG_INLINE real foveal_adaptation(real mean, real own) { return sqrt(max(mean * own, real(1e-12))); }
+
 // Cone share of what is looked at: cones see colours down to 0.01 cd/m2 and end at 0.001, whatever the field around.
 SKYIG_INLINE real foveal_share(real luminance) {
     real t = clamp(log2(max(luminance, real(1e-9))) * real(0.30102999566) + real(3.0), real(0.0), real(1.0));
@@ -35,7 +39,8 @@ SKYIG_INLINE rvec3 beside_veil(rvec3 light, rvec3 veil, real share) {
     return (light * (x * x / a) + veiled * (y * y / b)) * (sum * sqrt(sqrt(fourth)) / fourth);
 }
 
-// Display linear of a light before a sky, where the light is seen with another share of cones than the sky.
+// Display linear of a light before a sky, where the light is seen with another share of cones than the sky: what it adds
+// is never less than nothing, in any colour.
 SKYIG_INLINE rvec3 seen_before(rvec3 light, real photopic, rvec3 sky, ToneParameters tone) {
     if (photopic <= tone.photopic) return display_linear(sky + light, tone);
     ToneParameters seen = tone;

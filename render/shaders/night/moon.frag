@@ -12,7 +12,7 @@ uniform ToneParameters u_tone;
 uniform Fovea u_fovea;
 uniform vec3 u_full_cd_m2;       // mean luminance of the lit face divided by its phase function, outside the air
 uniform vec3 u_earthshine_cd_m2;
-uniform float u_lit_cd_m2;       // mean luminance of what the Sun lights, outside the air
+uniform float u_mean_cd_m2;      // of the whole disc, outside the air and the Earth's shadow: what the eye that looks at it adapts to
 uniform vec3 u_veil_cd_m2;       // that the bright part lays over the disc in the eye
 uniform float u_veil_own_cd_m2;  // of it and the sky, before the eye adapts to them
 uniform vec3 u_to_sun_disc;      // in the disc's axes: right, up, towards the eye
@@ -48,12 +48,14 @@ void main() {
         o_colour = vec4(shown(sky + light, u_tone), disc_coverage());
         return;
     }
-    ToneParameters tone = u_tone;
-    tone.photopic = max(tone.photopic, foveal_share(own) * own / (own + max(luminance_709(sky), 1e-9)));
-    light *= foveal_factor(u_fovea, u_lit_cd_m2 * luminance_709(v_light * sunlight));
+    light *= foveal_factor(u_fovea, foveal_adaptation(u_mean_cd_m2 * luminance_709(v_light * sunlight), own));
     // Who looks at the part in the Earth's shadow keeps the bright rest away from the middle of the eye.
     float veil_own = max(u_veil_own_cd_m2 * sun.direct, 1e-9);
     light = beside_veil(light, u_veil_cd_m2 * sun.direct, own / (own + veil_own));
-    vec3 display = encoded(seen_before(light, photopic_share(veil_own), sky, tone), tone);
+    float photopic = max(photopic_share(veil_own), foveal_share(own) * own / (own + max(luminance_709(sky), 1e-9)));
+    // And sees its copper with cones alone, the little sky before it too.
+    ToneParameters tone = u_tone;
+    tone.photopic = mix(tone.photopic, max(tone.photopic, photopic), 1.0 - sun.direct);
+    vec3 display = encoded(seen_before(light, photopic, sky, tone), tone);
     o_colour = vec4(dithered(display, dot(gl_FragCoord.xy, kDitherStep)), disc_coverage());
 }
