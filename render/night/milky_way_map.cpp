@@ -219,4 +219,22 @@ double MilkyWayMap::luminance_cd_m2(const glm::dvec3& direction) const noexcept 
     return unwarped(std::lerp(mixed(t), mixed(t + kWidth), y - static_cast<double>(row)));
 }
 
+double mean_starlight_cd_m2(const MilkyWayMap& map, double longitude_rad, double latitude_rad,
+                            double disc_radius_rad) noexcept {
+    constexpr int kSteps = 4;  // each way from the middle
+    double sum = 0.0;
+    int count = 0;
+    for (int y = -kSteps; y <= kSteps; ++y) {
+        for (int x = -kSteps; x <= kSteps; ++x) {
+            if (x * x + y * y > kSteps * kSteps) continue;
+            const double b = latitude_rad + y * disc_radius_rad / kSteps;
+            const double l = longitude_rad + x * disc_radius_rad / (kSteps * std::cos(b));
+            sum += map.luminance_cd_m2({std::cos(b) * std::cos(l), std::cos(b) * std::sin(l), std::sin(b)}) +
+                   kS10_cd_m2 * starlight_s10(l, b).even;
+            ++count;
+        }
+    }
+    return sum / count;
+}
+
 }  // namespace skyig::render::night

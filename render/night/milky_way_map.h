@@ -71,4 +71,10 @@ class MilkyWayMap {
     std::vector<Raw> raw_;  // of as many rows as the window is high, one in place of the other
 };
 
+/// All starlight about a place, the map's with what is even: mean over a disc, outside the air, cd/m2. What
+/// measurements of that resolution have. Precondition: map.complete(). \param longitude_rad, latitude_rad
+/// galactic, away from the poles
+[[nodiscard]] double mean_starlight_cd_m2(const MilkyWayMap& map, double longitude_rad, double latitude_rad,
+                                          double disc_radius_rad) noexcept;
+
 }  // namespace skyig::render::night
