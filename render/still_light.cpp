@@ -21,8 +21,8 @@ double luminance_cd_m2(const SkyLight& light, double elevation_rad, double azimu
 }  // namespace
 
 void StillLight::settle(const Scene& scene) {
-    // A table that is only a little old is made anew in slices.
-    constexpr int kFrames = 20;
+    // A table that is only a little old is made anew in slices; the night's takes longest.
+    constexpr int kFrames = night::NightSky::kMostFrames;
     scene_ = scene;
     const sky::RefractionRow refraction = tables_.refraction(scene);
     Plan plan;

@@ -32,6 +32,10 @@ class NightSky {
     static constexpr int kColumns = 72;
     static constexpr int kRowsAFrame = 4;
     static constexpr int kTownRowsAFrame = 10;
+    /// Calls of update() from a table's beginning to its use, all towns new.
+    static constexpr int kMostFrames =
+        1 + static_cast<int>(kMaxCities) * ((LightDome::kRows + kTownRowsAFrame - 1) / kTownRowsAFrame) +
+        (kSkyRows + kGroundRows + kRowsAFrame - 1) / kRowsAFrame;
 
     NightSky();
 
