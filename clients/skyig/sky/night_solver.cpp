@@ -59,7 +59,7 @@ void NightSolver::begin(double altitude_m, double sun_zenith_deg) {
     light_.ground_albedo = render::sky::luminous_albedo(tables_.model(), tables_.model().ground_albedo);
     light_by_sun_and_moon(plan);
     if (!(plan.night_share > 0.0)) return;
-    night_sky_.update(dark_scene_, tables_);
+    night_sky_.build(dark_scene_, tables_);
     light_.night = &night_sky_;
     light_.night_share = static_cast<float>(plan.night_share);
     if (!milky_way_.complete() || dark_scene_.night.model != render::NightModel::kSources) return;
