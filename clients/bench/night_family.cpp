@@ -203,7 +203,8 @@ void add_milky_way(std::vector<Contender>& contenders) {
 void add_towns(std::vector<Contender>& contenders) {
     const render::City city{.radius_m = 8000.0, .population = 2e5};
     const auto dome = std::make_shared<night::LightDome>();
-    dome->build(city, {}, 30e3, 600.0);
+    dome->aim(city, {}, 30e3, 600.0);
+    dome->build_rows(night::LightDome::kRows);
     contenders.push_back({"towns", kLight, repeat([dome, asked = directions()](std::uint64_t i) {
                               const glm::vec2& direction = (*asked)[i % kDirections];
                               return dome->luminance_cd_m2(std::abs(static_cast<double>(direction.x)),
@@ -213,7 +214,8 @@ void add_towns(std::vector<Contender>& contenders) {
                           "dome",
                           repeat([city](std::uint64_t i) {
                               night::LightDome made;
-                              made.build(city, {}, 10e3 + 10.0 * static_cast<double>(i % 4096), 600.0);
+                              made.aim(city, {}, 10e3 + 10.0 * static_cast<double>(i % 4096), 600.0);
+                              made.build_rows(night::LightDome::kRows);
                               return made.luminance_cd_m2(0.1, 0.0);
                           }),
                           {},
