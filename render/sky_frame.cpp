@@ -227,8 +227,7 @@ void SkyFrame::refresh_sea(const Scene& scene, double pixel_rad) {
     plan_waves(plan_, scene, waves_, lit);
     const double height_m = sky::height_above_sea_m(scene);
     const int rows = plan_.needs(Pass::kWaves) ? SeaMesh::rows(dome_, waves_, height_m, pixel_rad) : 0;
-    const sky::SlopeVariance variance =
-        sky::roughened(sky::slope_variance(scene.ground, scene.sea.all_waves()));
+    const sky::SlopeVariance& variance = waves_.variance;
     sea_shading_ = {height_m,
                     0.5 / (kEarthRadius_m * height_m),
                     pixel_rad,
