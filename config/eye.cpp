@@ -33,12 +33,24 @@ void read_gamma(TableReader& table, std::optional<double>& gamma) {
 }  // namespace
 
 void read_screen(TableReader& table, Screen& screen) {
-    if (table.number("max_luminance_cd_m2", screen.max_luminance_cd_m2, {1.0, 10'000.0, "cd/m2"}) != nullptr)
-        screen.adaptation_cd_m2 = 0.5 * screen.max_luminance_cd_m2;
+    const Value* most =
+        table.number("max_luminance_cd_m2", screen.max_luminance_cd_m2, {1.0, 10'000.0, "cd/m2"});
+    if (most != nullptr) screen.adaptation_cd_m2 = 0.5 * screen.max_luminance_cd_m2;
     table.number("adaptation_cd_m2", screen.adaptation_cd_m2, {0.1, 10'000.0, "cd/m2"});
     read_gamma(table, screen.gamma);
-    table.number("black_cd_m2", screen.black_cd_m2, {0.0, 1000.0, "cd/m2"});
-    table.number("reflected_cd_m2", screen.reflected_cd_m2, {0.0, 1000.0, "cd/m2"});
+    const Value* black = table.number("black_cd_m2", screen.black_cd_m2, {0.0, 1000.0, "cd/m2"});
+    const Value* reflected = table.number("reflected_cd_m2", screen.reflected_cd_m2, {0.0, 1000.0, "cd/m2"});
+    const double least_cd_m2 = screen.black_cd_m2 + screen.reflected_cd_m2;
+    if (least_cd_m2 < screen.max_luminance_cd_m2) return;
+    const std::string_view key = reflected != nullptr ? "reflected_cd_m2"
+                                 : black != nullptr   ? "black_cd_m2"
+                                                      : "max_luminance_cd_m2";
+    const Value* at = reflected != nullptr ? reflected : black != nullptr ? black : most;
+    if (at == nullptr) return;
+    table.error(
+        *at, key,
+        fmt::format("black and reflected light together are {} cd/m2; full white, {} cd/m2, must be more",
+                    least_cd_m2, screen.max_luminance_cd_m2));
 }
 
 void read_display(TableReader table, Display& display) {

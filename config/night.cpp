@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <numbers>
 #include <string_view>
 
 #include "config/schema.h"
@@ -13,16 +14,33 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kModelNames{"sources", "mean", "seed"};
 
+// Both are 0.02 cd/m2 at the zenith of clear air: a brighter glow would show before a town's light is drawn.
+constexpr double kMostZenith_cd_m2 = 0.02;
+constexpr double kMostHeads_per_km2 = 8000.0;
+
+void read_city_light(TableReader& table, City& city) {
+    const bool by_zenith = table.has("zenith_cd_m2");
+    if (!by_zenith && !table.has("population"))
+        table.require("zenith_cd_m2", "cd/m2 at the zenith over its centre, or population in its place");
+    table.number("zenith_cd_m2", city.zenith_cd_m2, {0.0, kMostZenith_cd_m2, "cd/m2", true});
+    const Value* population = table.number("population", city.population, {0.0, 1e8, {}, true});
+    if (population == nullptr) return;
+    if (by_zenith)
+        table.error(*population, "population", "stands beside zenith_cd_m2; only one of them may be given");
+    const double heads_per_km2 = city.population / (std::numbers::pi * city.radius_km * city.radius_km);
+    if (heads_per_km2 > kMostHeads_per_km2)
+        table.error(*population, "population",
+                    fmt::format("is {:.0f} a km2 of its disc; at most {:.0f}: give a wider radius_km",
+                                heads_per_km2, kMostHeads_per_km2));
+}
+
 void read_city(TableReader& table, City& city) {
     table.number("latitude_deg", city.latitude_deg, {-90.0, 90.0, "degrees"});
     table.number("longitude_deg", city.longitude_deg, {-360.0, 360.0, "degrees"});
     table.require("latitude_deg", "degrees north");
     table.require("longitude_deg", "degrees east");
     table.number("radius_km", city.radius_km, {0.1, 100.0, "km"});
-    const Value* zenith = table.number("zenith_cd_m2", city.zenith_cd_m2, {0.0, 1.0, "cd/m2"});
-    const Value* population = table.number("population", city.population, {0.0, 1e8, {}});
-    if (zenith != nullptr && population != nullptr)
-        table.error(*population, "population", "stands beside zenith_cd_m2; only one of them may be given");
+    read_city_light(table, city);
     table.finish();
 }
 

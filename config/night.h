@@ -16,8 +16,8 @@ struct City {
     double longitude_deg = 0.0;
     /// 0.1..100
     double radius_km = 8.0;
-    /// What its light adds to the zenith over its centre, 0..1; or how many people live there, 0..1e8. One of
-    /// the two is given.
+    /// What its light adds to the zenith over its centre, above 0 .. 0.02; or how many people live there,
+    /// above 0 .. 1e8, at most 8000 a km2 of its disc. Just one of the two is given, the other stays 0.
     double zenith_cd_m2 = 0.0;
     double population = 0.0;
 };

@@ -89,6 +89,10 @@ const Value* TableReader::any(std::string_view key) {
     return table_ == nullptr ? nullptr : table_->find(key);
 }
 
+bool TableReader::has(std::string_view key) const {
+    return table_ != nullptr && table_->find(key) != nullptr;
+}
+
 const Value* TableReader::number(std::string_view key, double& out, const Range& range) {
     const Value* value = any(key);
     if (value == nullptr) return nullptr;
@@ -200,7 +204,7 @@ TableReader TableReader::table(std::string_view key) {
 }
 
 void TableReader::require(std::string_view key, std::string_view wanted) {
-    if (table_ != nullptr && table_->find(key) != nullptr) return;
+    if (has(key)) return;
     errors_.add(place_, key_path(key), fmt::format("is missing; it must be {}", wanted));
 }
 

@@ -58,6 +58,7 @@ class TableReader {
     [[nodiscard]] TableReader table(std::string_view key);
     /// Any value at all, for keys that may hold several types.
     const Value* any(std::string_view key);
+    [[nodiscard]] bool has(std::string_view key) const;
 
     /// The key must be there; otherwise an error at the table, saying `wanted`.
     void require(std::string_view key, std::string_view wanted);

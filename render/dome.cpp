@@ -253,7 +253,7 @@ void Dome::encode_one(const std::vector<glm::vec3>& light, const shaders32::Tone
 }
 
 void Dome::encode(std::span<const shaders64::ToneParameters> tones) {
-    // The first screen comes last: its codes stay for split_quads().
+    // The first screen comes last: its codes stay for triangulate().
     for (std::size_t screen = vertices_.size(); screen-- > 0;) {
         const auto tone32 = eye::single_precision(tones[screen]);
         std::vector<DomeVertex>& vertices = vertices_[screen];

@@ -20,6 +20,17 @@ glm::dvec3 direction_of(const Horizontal& h) noexcept {
     return {level * std::sin(h.azimuth_rad), level * std::cos(h.azimuth_rad), std::sin(h.elevation_rad)};
 }
 
+glm::dmat3 enu_from_equatorial(double latitude_rad, double sidereal_rad) noexcept {
+    const double c = std::cos(sidereal_rad);
+    const double s = std::sin(sidereal_rad);
+    const double level = std::cos(latitude_rad);
+    const double rise = std::sin(latitude_rad);
+    const glm::dvec3 east{-s, c, 0.0};
+    const glm::dvec3 north{-rise * c, -rise * s, level};
+    const glm::dvec3 up{level * c, level * s, rise};
+    return glm::transpose(glm::dmat3{east, north, up});
+}
+
 double smooth_step(double low, double high, double x) noexcept {
     const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);

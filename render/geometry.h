@@ -20,6 +20,10 @@ struct Horizontal {
 [[nodiscard]] Horizontal horizontal_of(const glm::dvec3& direction_enu) noexcept;
 [[nodiscard]] glm::dvec3 direction_of(const Horizontal& horizontal) noexcept;
 
+/// East-north-up axes from equatorial ones (x to the equinox, z to the north pole) on a sphere.
+/// \param sidereal_rad  right ascension of the meridian
+[[nodiscard]] glm::dmat3 enu_from_equatorial(double latitude_rad, double sidereal_rad) noexcept;
+
 /// 0 below `low`, 1 above `high`, smooth between; `low` may be above `high` (then it falls).
 [[nodiscard]] double smooth_step(double low, double high, double x) noexcept;
 

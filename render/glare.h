@@ -59,8 +59,7 @@ class Glare {
 
     Glare();
 
-    /// \param tone  the frame's, made of `display`. Allocates nothing; 0.1 to 0.3 ms while there is something
-    /// to see.
+    /// \param tone  the frame's, made of `display`. Allocates nothing.
     void update(const GlareSource& source, const SkyLight& light, const DisplaySettings& display,
                 const shaders64::ToneParameters& tone) noexcept;
 

@@ -36,6 +36,17 @@ double sunlight_lux(const sky::AirModel& model) {
     return sum;
 }
 
+// Beyond these steps between frames the clock was set, or the eye was carried to another place.
+constexpr double kJump_rad = 0.5 * kDegree;
+
+bool is_jump(const glm::dvec3& a, const glm::dvec3& b) noexcept {
+    return glm::dot(a, b) < 0.0 || glm::length(glm::cross(a, b)) > kJump_rad;
+}
+
+bool is_height_jump(double from_m, double to_m) noexcept {
+    return std::abs(from_m - to_m) > 200.0 + 0.2 * std::abs(from_m);
+}
+
 }  // namespace
 
 glm::vec3 moon_scale_xyz(const Scene& scene, const sky::AirModel& model, double share) noexcept {
@@ -153,9 +164,8 @@ void LightTables::update_view(View& view, const Wanted& wanted) {
     };
     // Beyond these steps the picture in use is wrong rather than late.
     const Made& latest = view.building ? view.back_made : view.front_made;
-    const bool lost = latest.air == 0 ||
-                      std::abs(latest.elevation_rad - wanted.elevation_rad) > 0.5 * kDegree ||
-                      std::abs(latest.height_m - wanted.height_m) > 200.0 + 0.2 * std::abs(latest.height_m);
+    const bool lost = latest.air == 0 || std::abs(latest.elevation_rad - wanted.elevation_rad) > kJump_rad ||
+                      is_height_jump(latest.height_m, wanted.height_m);
     if (wanted.needed && lost) {
         begin(wanted.elevation_rad, wanted.height_m);
         if (!wanted.matters) view.front_made.air = 0;
@@ -175,8 +185,16 @@ void LightTables::update_view(View& view, const Wanted& wanted) {
     if (sky_done && sea_done) take_over();
 }
 
+bool LightTables::has_jumped(const Scene& scene) const noexcept {
+    if (!last_) return false;
+    return is_jump(last_->sun_enu, scene.sun.direction_enu) ||
+           is_jump(last_->moon_enu, scene.moon.direction_enu) ||
+           is_height_jump(last_->height_m, scene.eye.height_m);
+}
+
 void LightTables::update(const Scene& scene, const Plan& plan) {
-    jumped_ = false;
+    jumped_ = has_jumped(scene);
+    last_ = {scene.sun.direction_enu, scene.moon.direction_enu, scene.eye.height_m};
     update_air(scene, plan);
     update_sea(scene);
     sky_ = fitting(scene.sky);

@@ -56,7 +56,7 @@ class LightTables {
     /// Rises by one whenever a table in use is replaced.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
-    /// Whether the last update() replaced a table because Sun, Moon or eye had jumped.
+    /// Whether Sun, Moon or eye have jumped since the last update(), needed or not: another scene altogether.
     [[nodiscard]] bool jumped() const noexcept { return jumped_; }
 
     /// Rises with every new air, once a table made of it is in use.
@@ -114,6 +114,7 @@ class LightTables {
         double height_m = 0.0;
         double height_ahead_m = 0.0;
     };
+    [[nodiscard]] bool has_jumped(const Scene& scene) const noexcept;
     void update_air(const Scene& scene, const Plan& plan);
     void update_sea(const Scene& scene) noexcept;
     [[nodiscard]] bool same_sea(const Made& made, const Scene& scene) const noexcept;
@@ -138,6 +139,13 @@ class LightTables {
     night::NightSky night_;
     std::uint64_t revision_ = 0;
     bool jumped_ = false;
+    /// Of the frame before.
+    struct Place {
+        glm::dvec3 sun_enu{0.0};
+        glm::dvec3 moon_enu{0.0};
+        double height_m = 0.0;
+    };
+    std::optional<Place> last_;
 };
 
 }  // namespace skyig::render

@@ -42,8 +42,8 @@ MilkyWay::MilkyWay(std::size_t screens) : vertices_(screens), patches_(kRows, kC
     patches_.bound(directions);
 }
 
-bool MilkyWay::make_map(const NightSettings& settings, bool at_once) {
-    if (settings.structure != structure_ || settings.seed != seed_ || !map_.begun()) {
+bool MilkyWay::make_map(const NightSettings& settings, bool at_once) noexcept {
+    if (settings.structure != structure_ || settings.seed != seed_) {
         map_.begin(settings.structure, settings.seed);
         structure_ = settings.structure;
         seed_ = settings.seed;

@@ -34,9 +34,9 @@ class MilkyWay {
     /// \param screens  vertices are shaded for each
     explicit MilkyWay(std::size_t screens = 1);
 
-    /// Makes the map that the settings ask for, some rows a frame; allocates when it is begun. \param at_once
-    /// the whole map. \return whether it is there
-    bool make_map(const NightSettings& settings, bool at_once);
+    /// Makes the map that the settings ask for, some rows a frame. Allocates nothing. \param at_once the
+    /// whole map. \return whether it is there
+    bool make_map(const NightSettings& settings, bool at_once) noexcept;
 
     /// Shades vertices for the frame's light, whose `milky_way` must be set. Allocates nothing. \param
     /// at_once all of them, not their turn alone
@@ -58,7 +58,7 @@ class MilkyWay {
 
   private:
     night::MilkyWayMap map_;
-    double structure_ = -1.0;
+    double structure_ = -1.0;  // of the map; below 0: of none
     std::uint32_t seed_ = 0;
     std::uint64_t map_revision_ = 0;
     std::vector<std::vector<MilkyWayVertex>> vertices_;  // of each screen

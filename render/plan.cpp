@@ -142,12 +142,14 @@ void plan_skies(Plan& plan, const Scene& scene, const Held& held, double sun_rad
     }
 }
 
-// A dark sky with a town in it has 0.02 cd/m2; twilight falls from 10 to 2 while it is faded in.
 void plan_night(Plan& plan, double sun_rad) {
-    plan.night_share = smooth_step(-3.0 * kDegree, -5.0 * kDegree, sun_rad);
+    plan.night_share = night::night_share(sun_rad);
     if (plan.forced[static_cast<std::size_t>(Pass::kNightSky)]) plan.night_share = 1.0;
+    // As with the Moon's, its table is begun before its light counts.
+    const bool near = sun_rad < -2.0 * kDegree;
     put(plan, Pass::kNightSky,
         plan.night_share > 0.0 ? Verdict{true, "the sky is dark enough to show it"}
+        : near                 ? Verdict{true, "the sky will soon be dark enough to show it"}
                                : Verdict{false, "below half a code: daylight outshines it"});
     plan.passes[static_cast<std::size_t>(Pass::kNightSky)].resolution = {
         night::NightSky::kSkyRows + night::NightSky::kGroundRows, night::NightSky::kColumns};

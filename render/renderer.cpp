@@ -67,6 +67,10 @@ struct Renderer::Impl {
     void prepare_moon(std::size_t screen);
     void draw_dome(std::size_t channel, const glm::dmat4& clip_from_enu);
     void refresh_deferred();
+    [[nodiscard]] bool shows(std::size_t channel) const noexcept;
+    [[nodiscard]] glm::dmat4 clip_from_enu(std::size_t channel) const noexcept;
+    void draw_sky(std::size_t channel);
+    void draw_discs(std::size_t channel);
 
     std::vector<Channel> channels;
     DisplaySettings display;
@@ -185,62 +189,73 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     return m.report;
 }
 
+bool Renderer::Impl::shows(std::size_t channel) const noexcept {
+    return channel < channels.size() && channel < scene.view_count && has_area(scene.views[channel].frustum);
+}
+
+glm::dmat4 Renderer::Impl::clip_from_enu(std::size_t channel) const noexcept {
+    const ChannelView& view = scene.views[channel];
+    return clip_from_view(view.frustum) * glm::dmat4{view.view_from_enu};
+}
+
+void Renderer::Impl::draw_sky(std::size_t channel) {
+    const Plan& plan = report.plan;
+    const std::size_t screen = screens.of_channel[channel];
+    const glm::dmat4 clip = clip_from_enu(channel);
+    // Discs are prepared for one screen at a time: rigs of like screens pay for it once a frame.
+    if (discs_screen != screen) prepare_discs(screen);
+    targets[channel].bind();
+    gl::set_blend(gl::Blend::kReplace);
+    draw_dome(channel, clip);
+    gl::set_blend(gl::Blend::kAdd);
+    if (frame.light().milky_way.map != nullptr)
+        milky_way.draw(frame.milky_way(), channels[channel], screen, clip);
+    if (plan.needs(Pass::kStars))
+        stars.draw(channels[channel], scene.views[channel], eye::single_precision(frame.tone(screen)));
+    if (plan.needs(Pass::kCorona)) corona.draw(glm::mat4{clip});
+}
+
+void Renderer::Impl::draw_discs(std::size_t channel) {
+    const glm::mat4 clip{clip_from_enu(channel)};
+    gl::set_blend(gl::Blend::kCoverage);
+    if (report.plan.needs(Pass::kSunDisc)) sun_disc.draw(clip);
+    if (report.plan.needs(Pass::kMoonDisc)) moon_disc.draw(clip);
+}
+
 void Renderer::draw(std::size_t channel) {
     Impl& m = *impl_;
-    if (channel >= m.channels.size() || channel >= m.scene.view_count) return;
-    const ChannelView& view = m.scene.views[channel];
-    if (!has_area(view.frustum)) return;
-    const Plan& plan = m.report.plan;
-    const glm::dmat4 clip_from_enu = clip_from_view(view.frustum) * glm::dmat4{view.view_from_enu};
-
-    // Discs are prepared for one screen at a time: rigs of like screens pay for it once a frame.
-    if (m.discs_screen != m.screens.of_channel[channel]) m.prepare_discs(m.screens.of_channel[channel]);
-    m.targets[channel].bind();
-    gl::set_blend(gl::Blend::kReplace);
-    m.draw_dome(channel, clip_from_enu);
-
-    if (m.frame.light().milky_way.map != nullptr) {
-        gl::set_blend(gl::Blend::kAdd);
-        m.milky_way.draw(m.frame.milky_way(), m.channels[channel], m.screens.of_channel[channel],
-                         clip_from_enu);
-    }
-    if (plan.needs(Pass::kStars)) {
-        gl::set_blend(gl::Blend::kAdd);
-        m.stars.draw(m.channels[channel], view,
-                     eye::single_precision(m.frame.tone(m.screens.of_channel[channel])));
-    }
-    if (plan.needs(Pass::kCorona)) {
-        gl::set_blend(gl::Blend::kAdd);
-        m.corona.draw(glm::mat4{clip_from_enu});
-    }
-    if (plan.needs(Pass::kMoonGlare)) {
-        gl::set_blend(gl::Blend::kAdd);
-        m.moon_glare.draw(glm::mat4{clip_from_enu});
-    }
-    gl::set_blend(gl::Blend::kCoverage);
-    if (plan.needs(Pass::kSunDisc)) m.sun_disc.draw(glm::mat4{clip_from_enu});
-    if (plan.needs(Pass::kMoonDisc)) m.moon_disc.draw(glm::mat4{clip_from_enu});
-    if (plan.needs(Pass::kSunGlare)) {
-        // Over the Moon too, when it stands before the Sun.
-        gl::set_blend(gl::Blend::kAdd);
-        m.sun_glare.draw_around(glm::mat4{clip_from_enu});
-    }
+    if (!m.shows(channel)) return;
+    const glm::mat4 clip{m.clip_from_enu(channel)};
+    m.draw_sky(channel);
+    if (m.report.plan.needs(Pass::kMoonGlare)) m.moon_glare.draw(clip);
+    m.draw_discs(channel);
+    gl::set_blend(gl::Blend::kAdd);
+    // Over the Moon too, when it stands before the Sun.
+    if (m.report.plan.needs(Pass::kSunGlare)) m.sun_glare.draw_around(clip);
     gl::finish();
 }
 
 void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
     Impl& m = *impl_;
-    draw(channel);
-    if (channel >= m.channels.size() || channel >= m.scene.view_count) return;
-    const ChannelView& view = m.scene.views[channel];
-    if (!has_area(view.frustum) || !(input.far_m > 0.0)) return;
+    if (!(input.far_m > 0.0)) {
+        draw(channel);
+        return;
+    }
+    if (!m.shows(channel)) return;
     if (!m.deferred) {
         m.deferred = std::make_unique<DeferredPass>();
         m.refresh_deferred();
     }
-    m.targets[channel].bind();
+    m.draw_sky(channel);
+    m.draw_discs(channel);
     gl::set_blend(gl::Blend::kReplace);
-    m.deferred->draw(view, input, eye::single_precision(m.frame.tone(m.screens.of_channel[channel])));
+    m.deferred->draw(m.scene.views[channel], input,
+                     eye::single_precision(m.frame.tone(m.screens.of_channel[channel])));
+    // Glare is in the eye: before things too.
+    const glm::mat4 clip{m.clip_from_enu(channel)};
+    gl::set_blend(gl::Blend::kAdd);
+    if (m.report.plan.needs(Pass::kMoonGlare)) m.moon_glare.draw_around(clip);
+    if (m.report.plan.needs(Pass::kSunGlare)) m.sun_glare.draw_around(clip);
     gl::finish();
 }
 

@@ -8,8 +8,6 @@
 
 #include "render/eye/exposure.h"
 #include "render/eye/tone_curve.h"
-#include "render/night/natural_light.h"
-#include "render/night/starlight.h"
 #include "render/star_field.h"
 
 namespace skyig::render {
@@ -151,27 +149,28 @@ void SkyFrame::refresh_milky_way(const Scene& scene) {
         milky_way_shown_ = false;
         return;
     }
-    light_.milky_way = {&milky_way_.map(),
-                        night::galactic_from_gcrs() * glm::transpose(scene.stars.enu_from_gcrs),
-                        static_cast<float>(plan_.night_share * night::starlight_share(scene.night))};
-    milky_way_.shade(light_, tones_, first || !milky_way_shown_);
+    light_.milky_way = lit_belt(scene, milky_way_.map(), plan_.night_share);
+    const bool exposed_anew = exposure_exponent_ != shaded_.exposure_exponent;
+    milky_way_.shade(light_, tones_, first || exposed_anew || !milky_way_shown_);
     milky_way_shown_ = true;
 }
 
 void SkyFrame::dazzle(const Scene& scene) {
-    const GlareSource sun = render::sun_glare(scene, tables_.air(), light_);
-    const GlareSource moon = render::moon_glare(scene, tables_.air(), light_);
-    // As far as any screen shows it.
-    double sun_reach_rad = 0.0;
-    double moon_reach_rad = 0.0;
-    for (std::size_t screen = 0; screen < displays_.size(); ++screen) {
-        sun_glares_[screen].update(sun, light_, displays_[screen], tones_[screen]);
-        moon_glares_[screen].update(moon, light_, displays_[screen], tones_[screen]);
-        sun_reach_rad = std::max(sun_reach_rad, sun_glares_[screen].reach_rad());
-        moon_reach_rad = std::max(moon_reach_rad, moon_glares_[screen].reach_rad());
-    }
     // Luminance is without an eye.
     const bool wanted = displays_.front().glare && target_ == Target::kDisplay;
+    double sun_reach_rad = 0.0;
+    double moon_reach_rad = 0.0;
+    if (wanted) {
+        const GlareSource sun = render::sun_glare(scene, tables_.air(), light_);
+        const GlareSource moon = render::moon_glare(scene, tables_.air(), light_);
+        // As far as any screen shows it.
+        for (std::size_t screen = 0; screen < displays_.size(); ++screen) {
+            sun_glares_[screen].update(sun, light_, displays_[screen], tones_[screen]);
+            moon_glares_[screen].update(moon, light_, displays_[screen], tones_[screen]);
+            sun_reach_rad = std::max(sun_reach_rad, sun_glares_[screen].reach_rad());
+            moon_reach_rad = std::max(moon_reach_rad, moon_glares_[screen].reach_rad());
+        }
+    }
     plan_glare(plan_, Pass::kSunGlare, wanted && scene.sun.enabled, sun_reach_rad);
     plan_glare(plan_, Pass::kMoonGlare, wanted && scene.moon.enabled, moon_reach_rad);
 }
@@ -187,7 +186,8 @@ void SkyFrame::refresh_dome(double pixel_rad) {
     const bool turned = std::abs(std::remainder(wanted.second_azimuth_rad - shaded_.moon_from_sun_rad,
                                                 2.0 * std::numbers::pi)) > static_cast<double>(kLightStep);
     const bool scaled = scale_moved(light_.sun.scale_xyz, shaded_.sun_scale) ||
-                        scale_moved(light_.moon.scale_xyz, shaded_.moon_scale) || turned;
+                        scale_moved(light_.moon.scale_xyz, shaded_.moon_scale) || turned ||
+                        std::abs(light_.night_share - shaded_.night_share) > kLightStep;
     const bool toned =
         std::abs(adaptation - shaded_.adaptation_cd_m2) > kAdaptationStep * shaded_.adaptation_cd_m2 ||
         exposure_exponent_ != shaded_.exposure_exponent;
@@ -208,6 +208,7 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         shaded_.sun_scale = light_.sun.scale_xyz;
         shaded_.moon_scale = light_.moon.scale_xyz;
         shaded_.moon_from_sun_rad = wanted.second_azimuth_rad;
+        shaded_.night_share = light_.night_share;
     }
     if (replaced || scaled || toned) {
         dome_.encode(tones_);

@@ -154,6 +154,7 @@ class SkyFrame {
         glm::vec3 sun_scale{-1.0F};
         glm::vec3 moon_scale{-1.0F};
         double moon_from_sun_rad = 0.0;
+        float night_share = 0.0F;
     } shaded_;
 };
 

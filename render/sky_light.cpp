@@ -6,6 +6,7 @@
 
 #include "render/colour.h"
 #include "render/night/natural_light.h"
+#include "render/night/starlight.h"
 
 namespace skyig::render {
 
@@ -47,6 +48,11 @@ glm::vec3 dark_sky(const SkyLight& light, double straight_rad, double azimuth_ra
 }
 
 }  // namespace
+
+LitBelt lit_belt(const Scene& scene, const night::MilkyWayMap& map, double night_share) noexcept {
+    return {&map, night::galactic_from_gcrs() * glm::transpose(scene.stars.enu_from_gcrs),
+            static_cast<float>(night_share * night::starlight_share(scene.night))};
+}
 
 double SkyLight::straight_elevation_rad(double elevation_rad) const noexcept {
     if (elevation_rad >= 0.0 || horizon_elevation_rad >= 0.0) return elevation_rad;

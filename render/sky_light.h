@@ -7,6 +7,7 @@
 #include "render/geometry.h"
 #include "render/night/milky_way_map.h"
 #include "render/night/night_sky.h"
+#include "render/scene.h"
 #include "render/sky/refraction.h"
 #include "render/sky/sea_surface.h"
 #include "render/sky/sea_view.h"
@@ -30,6 +31,10 @@ struct LitBelt {
     glm::dmat3 galactic_from_enu{1.0};
     float share = 1.0F;  ///< of the map's light
 };
+
+/// The belt of a scene's sky. \param night_share  of the dark sky that is drawn
+[[nodiscard]] LitBelt lit_belt(const Scene& scene, const night::MilkyWayMap& map,
+                               double night_share) noexcept;
 
 /// Which side of the horizon a direction is taken from when it lies on the edge.
 enum class Side { kByElevation, kSky, kGround };

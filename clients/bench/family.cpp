@@ -12,6 +12,7 @@
 
 #include "clients/bench/ephemeris_family.h"
 #include "clients/bench/eye_family.h"
+#include "clients/bench/night_family.h"
 #include "clients/bench/sky_family.h"
 #include "clients/bench/wire_family.h"
 
@@ -19,10 +20,12 @@ namespace skyig::clients::bench {
 
 namespace {
 
-constexpr std::array<Family, 4> kFamilies{{
+constexpr std::array<Family, 5> kFamilies{{
     {"ephemeris", "places of Sun, Moon and planets", measure_ephemeris_errors, ephemeris_contenders,
      ephemeris_floor},
     {"eye", "from luminance to display codes", measure_eye_errors, eye_contenders, eye_floor},
+    {"night", "light of the night sky, source by source", measure_night_errors, night_contenders,
+     night_floor},
     {"sky", "light of the day sky", measure_sky_errors, sky_contenders, sky_floor},
     {"wire", "CIGI in both versions and byte orders", measure_wire_errors, wire_contenders, wire_floor},
 }};
@@ -142,7 +145,7 @@ std::string make_counted_calls(const Family& family, std::uint64_t calls) {
         sum += contender.work(0, warm_up);
         sum += skyig_bench_counted_calls(&contender.work, warm_up, counted);
         fmt::format_to(std::back_inserter(lines), "{},{},{},{}\n", family.name, contender.model,
-                       contender.cost, counted);
+                       contender.cost, counted * contender.things);
     }
     // Keeps every call's result in use.
     if (sum != sum) throw std::domain_error("bench: a model's result is not a number");

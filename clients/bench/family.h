@@ -52,7 +52,7 @@ struct InstructionCount {
 
 /// For an instruction counter: makes `calls` calls of each contender's work (or its most_counted_calls)
 /// inside skyig_bench_counted_calls, after a few outside of it. \return lines of "family,model,cost,calls" in
-/// the same order.
+/// the same order; a call that does several things counts as so many.
 [[nodiscard]] std::string make_counted_calls(const Family& family, std::uint64_t calls);
 
 }  // namespace skyig::clients::bench

@@ -99,6 +99,23 @@ void put_sizes(std::string& page, const Report& report) {
     if (!lines.empty()) page += "\n## Memory\n\n| model | of | bytes |\n|---|---|--:|\n" + lines;
 }
 
+void put_rows(std::string& page, const Report& report) {
+    std::string lines;
+    const auto out = std::back_inserter(lines);
+    for (const ModelEntry& model : report.models) {
+        for (const RowEntry& row : model.rows) {
+            fmt::format_to(out, "| {} | {} | {} | {} | {} | {} | {} |\n", cell(model.name), cell(row.cases),
+                           cell(row.row), short_number(row.known), short_number(row.ours), cell(row.unit),
+                           short_number(row.off));
+        }
+    }
+    if (lines.empty()) return;
+    page +=
+        "\n## Row by row\n\n| model | cases | row | known | ours | unit | off "
+        "|\n|---|---|---|--:|--:|---|--:|\n";
+    page += lines;
+}
+
 /// Name, ns and floors; empty cells for nothing.
 std::string cost_cells(const CostEntry* cost) {
     if (!cost) return " | | ";
@@ -163,6 +180,7 @@ std::string family_page(const Report& report) {
         put_errors(page, report, cases);
     put_costs(page, report);
     put_sizes(page, report);
+    put_rows(page, report);
     return page;
 }
 

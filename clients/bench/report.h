@@ -36,6 +36,17 @@ struct SizeEntry {
     std::size_t bytes = 0;
 };
 
+/// One row of a truth table beside what the model has.
+struct RowEntry {
+    std::string cases;
+    std::string row;
+    std::string unit;
+    double known = 0.0;
+    double ours = 0.0;
+    /// In the unit of the errors of these cases.
+    double off = 0.0;
+};
+
 struct ModelEntry {
     std::string name;
     std::string what;
@@ -43,6 +54,8 @@ struct ModelEntry {
     std::vector<CostEntry> costs;
     /// Empty where memory is no matter.
     std::vector<SizeEntry> sizes = {};
+    /// Empty for most families, whose tables are long.
+    std::vector<RowEntry> rows = {};
 };
 
 /// A quantity whose error is drawn against a cost, one point a model.

@@ -51,6 +51,14 @@ Json to_node(const ModelEntry& model) {
         node["costs"].push_back(to_node(cost));
     for (const SizeEntry& size : model.sizes)
         node["sizes"].push_back({{"name", size.name}, {"bytes", size.bytes}});
+    for (const RowEntry& row : model.rows) {
+        node["rows"].push_back({{"cases", row.cases},
+                                {"row", row.row},
+                                {"unit", row.unit},
+                                {"known", rounded(row.known)},
+                                {"ours", rounded(row.ours)},
+                                {"off", rounded(row.off)}});
+    }
     return node;
 }
 
@@ -106,9 +114,11 @@ ModelEntry model_of(const Json& node) {
         model.errors.push_back(error_of(error));
     for (const Json& cost : node.at("costs"))
         model.costs.push_back(cost_of(cost));
-    if (!node.contains("sizes")) return model;
-    for (const Json& size : node.at("sizes"))
+    for (const Json& size : node.value("sizes", Json::array()))
         model.sizes.push_back({text_of(size, "name"), size.at("bytes").get<std::size_t>()});
+    for (const Json& row : node.value("rows", Json::array()))
+        model.rows.push_back({text_of(row, "cases"), text_of(row, "row"), text_of(row, "unit"),
+                              number_of(row, "known"), number_of(row, "ours"), number_of(row, "off")});
     return model;
 }
 

@@ -12,10 +12,10 @@
 #include <memory>
 #include <numbers>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 
+#include "clients/bench/directions.h"
 #include "clients/bench/sky_models.h"
 #include "clients/bench/truth_table.h"
 
@@ -240,19 +240,6 @@ std::string name_of(const SkyContestant& contestant) {
     return std::string(render::name_of(contestant.model));
 }
 
-constexpr std::size_t kDirections = 1024;
-
-/// Even over the sphere.
-std::shared_ptr<const std::array<glm::vec2, kDirections>> directions() {
-    std::mt19937 random(60);
-    std::uniform_real_distribution<double> part(-1.0, 1.0);
-    auto made = std::make_shared<std::array<glm::vec2, kDirections>>();
-    for (glm::vec2& direction : *made)
-        direction = {static_cast<float>(std::asin(part(random))),
-                     static_cast<float>(std::numbers::pi * part(random))};
-    return made;
-}
-
 std::shared_ptr<MeasuredSky> sky_of(const SkyContestant& contestant, SharedAir& air) {
     auto model = std::make_shared<MeasuredSky>(contestant.model);
     model->enter(air.tables(model->orders()));
@@ -344,12 +331,7 @@ std::vector<Contender> sky_contenders() {
 }
 
 Work sky_floor() {
-    return repeat([asked = directions()](std::uint64_t i) {
-        const glm::vec2& direction = (*asked)[i % kDirections];
-        // Whoever looks up has to have read the direction.
-        __asm__ volatile("" : : "x"(direction.x), "x"(direction.y));
-        return 1.0;
-    });
+    return one_colour_floor();
 }
 
 }  // namespace skyig::clients::bench

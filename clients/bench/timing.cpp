@@ -80,7 +80,7 @@ PairedTimings measure_paired(const server::Clock& clock, const Work& floor,
         std::shuffle(order.begin(), order.end(), random);
         for (const std::size_t i : order) {
             const double floor_now_ns = floor_batches[i].time_ns();
-            const double now_ns = batches[i].time_ns();
+            const double now_ns = batches[i].time_ns() / static_cast<double>(contenders[i].things);
             if (round < 0) continue;
             floor_ns.push_back(floor_now_ns);
             ns[i].push_back(now_ns);

@@ -38,6 +38,8 @@ struct Contender {
     Work floor = {};
     /// Calls enough to count instructions of: fewer for works that take long and are always alike.
     std::uint64_t most_counted_calls = std::numeric_limits<std::uint64_t>::max();
+    /// Alike things that one call does at once: figures are of one of them.
+    std::uint64_t things = 1;
 };
 
 struct Quartiles {
@@ -52,7 +54,7 @@ struct Quartiles {
 [[nodiscard]] Quartiles quartiles(std::vector<double> values);
 
 struct Timing {
-    Quartiles ns;  ///< of one call
+    Quartiles ns;  ///< of one call, or of one of its things
     /// As multiples of the floor that was timed just before.
     Quartiles floors;
 };

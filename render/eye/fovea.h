@@ -8,8 +8,7 @@ namespace skyig::render::eye {
 
 /// Luminance, cd/m2, that the frame's tone curve shows as bright as eyes adapted to `own_cd_m2` see a field
 /// of that luminance with brighter things in it: at most own_cd_m2, rises with it. \param frame  the curve of
-/// the frame, made of the same display. With the linear operator and Reinhard's nothing is dimmed. Costs 0.2
-/// us.
+/// the frame, made of the same display. With the linear operator and Reinhard's nothing is dimmed.
 [[nodiscard]] double looked_at_cd_m2(const DisplaySettings& display, const shaders64::ToneParameters& frame,
                                      double own_cd_m2) noexcept;
 

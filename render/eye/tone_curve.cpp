@@ -100,7 +100,7 @@ double point_gain(const DisplaySettings& display, double adaptation_cd_m2) noexc
         display.tone == ToneOperator::kHybrid ? highlight_room(display.highlight_room, adaptation) : 0.0;
     const double field = std::pow(10.0, curve.p - room + curve.q * std::log10(adaptation));
     const double behind =
-        std::clamp(field, display.black_cd_m2 + display.reflected_cd_m2, display.max_luminance_cd_m2);
+        std::max(std::min(field, display.max_luminance_cd_m2), display.black_cd_m2 + display.reflected_cd_m2);
     const double above =
         kNightAbove * std::pow(kDayAbove / kNightAbove, shaders64::photopic_share(adaptation));
     return above * threshold_lux(behind) / threshold_lux(adaptation);

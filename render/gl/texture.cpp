@@ -1,6 +1,7 @@
 #include "render/gl/texture.h"
 
 #include <epoxy/gl.h>
+#include <array>
 
 #include <cstddef>
 #include <stdexcept>
@@ -35,7 +36,7 @@ Texture::Texture(TexelFormat format, int width, int height, int depth, int level
     }
     glTextureParameteri(name_, GL_TEXTURE_MIN_FILTER, levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
     glTextureParameteri(name_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    for (const GLenum side : std::array<GLenum, 3>{GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
         glTextureParameteri(name_, side, GL_CLAMP_TO_EDGE);
 }
 

@@ -24,16 +24,34 @@ struct TownAir {
 /// is scattered again (a tenth to a third more) is not followed.
 class LightDome {
   public:
-    /// \param distance_m  to the town's centre along the ground; \param eye_height_m  above the ground
-    void build(const City& city, const TownAir& air, double distance_m, double eye_height_m) noexcept;
+    static constexpr int kRows = 20;
 
-    /// cd/m2. \param elevation_rad  straight, 0..pi/2 (clamped); \param azimuth_rad  from the town's
+    /// Says whose glow is wanted. Rows that still serve are kept: of that city in that air, from the same
+    /// distance within 1 %, from a height within height_step_m(). \param distance_m  to the town's centre
+    /// along the ground; \param eye_height_m  above the ground
+    void aim(const City& city, const TownAir& air, double distance_m, double eye_height_m) noexcept;
+    /// At most so many rows further; true when all are there.
+    bool build_rows(int most_rows) noexcept;
+    [[nodiscard]] bool complete() const noexcept { return next_row_ == kRows; }
+
+    /// How far the eye may be from the height that rows were made for, metres: 2.6 % of the
+    /// glow above 1 km, half a degree and more above the horizon.
+    [[nodiscard]] static double height_step_m(double height_m) noexcept;
+
+    /// cd/m2. Precondition: complete(). \param elevation_rad  straight, 0..pi/2 (clamped); \param azimuth_rad
+    /// from the town's
     [[nodiscard]] double luminance_cd_m2(double elevation_rad, double azimuth_rad) const noexcept;
 
   private:
-    static constexpr std::size_t kRows = 20;
-    static constexpr std::size_t kColumns = 19;
-    std::array<double, kRows * kColumns> log2_cd_m2_{};
+    static constexpr int kColumns = 19;
+
+    City city_;
+    TownAir air_;
+    double distance_m_ = -1.0;
+    double eye_height_m_ = 0.0;
+    double lumen_ = 0.0;
+    int next_row_ = 0;
+    std::array<double, std::size_t{kRows} * kColumns> log2_cd_m2_{};
 };
 
 /// The same without a table. \param lumen  that the town sends up or down

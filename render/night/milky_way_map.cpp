@@ -20,10 +20,6 @@ constexpr double kRowStep_rad = 2.0 * kBelt_rad / (MilkyWayMap::kHeight - 1);
 constexpr double kSpread = 0.35;
 constexpr double kGamma = 2.2;
 
-// Half widths of the windows over which detail has mean 1.
-constexpr int kMeanColumns = 12;
-constexpr int kMeanRows = 8;
-
 std::uint32_t hashed(std::uint32_t x) {
     x ^= x >> 16U;
     x *= 0x7feb352dU;
@@ -119,83 +115,86 @@ double MilkyWayMap::unwarped(double t) noexcept {
     return kWarp_cd_m2 * (std::pow(1.0 + t, kGamma) - 1.0);
 }
 
-void MilkyWayMap::begin(double structure, std::uint32_t seed) {
+MilkyWayMap::MilkyWayMap()
+    : texels_(static_cast<std::size_t>(kWidth) * kHeight),
+      raw_(static_cast<std::size_t>(kAround) * (2 * kMeanRows + 1)) {}
+
+void MilkyWayMap::begin(double structure, std::uint32_t seed) noexcept {
     structure_ = structure;
     seed_ = seed;
     next_row_ = 0;
-    built_ = false;
-    texels_.assign(static_cast<std::size_t>(kWidth) * kHeight, 0.0F);
-    smooth_.assign(texels_.size(), 0.0F);
 }
 
-void MilkyWayMap::detail_row(int row) {
+// Rows are finished eight rows behind those whose detail is new: then the window is whole.
+bool MilkyWayMap::build_rows(int most_rows) noexcept {
+    const int last = std::min(next_row_ + most_rows, kHeight);
+    for (; next_row_ < last; ++next_row_) {
+        detail_row(next_row_);
+        sum_row(next_row_);
+        if (next_row_ >= kMeanRows) finish_row(next_row_ - kMeanRows);
+        if (next_row_ + 1 < kHeight) continue;
+        for (int row = kHeight - kMeanRows; row < kHeight; ++row)
+            finish_row(row);
+    }
+    return complete();
+}
+
+std::span<MilkyWayMap::Raw> MilkyWayMap::raw_row(int row) noexcept {
+    const auto place = static_cast<std::size_t>(row % (2 * kMeanRows + 1));
+    return std::span(raw_).subspan(place * kAround, kAround);
+}
+
+void MilkyWayMap::detail_row(int row) noexcept {
     const double latitude_rad = row * kRowStep_rad - kBelt_rad;
-    const std::size_t first = static_cast<std::size_t>(row) * kWidth;
-    for (int column = 0; column + 1 < kWidth; ++column) {
-        const double longitude_rad = column * kColumnStep_rad;
-        const std::size_t at = first + static_cast<std::size_t>(column);
-        smooth_[at] = static_cast<float>(kS10_cd_m2 * starlight_s10(longitude_rad, latitude_rad).belt);
-        texels_[at] = static_cast<float>(
+    for (int column = 0; Raw & raw : raw_row(row)) {
+        const double longitude_rad = column++ * kColumnStep_rad;
+        raw.smooth_cd_m2 = static_cast<float>(kS10_cd_m2 * starlight_s10(longitude_rad, latitude_rad).belt);
+        raw.detail = static_cast<float>(
             structure_ > 0.0 ? std::pow(detail(longitude_rad, latitude_rad, seed_), structure_) : 1.0);
     }
 }
 
-bool MilkyWayMap::build_rows(int most_rows) {
-    if (built_) return true;
-    const int last = std::min(next_row_ + most_rows, kHeight);
-    for (; next_row_ < last; ++next_row_)
-        detail_row(next_row_);
-    if (next_row_ == kHeight) finish();
-    return built_;
+void MilkyWayMap::sum_row(int row) noexcept {
+    const std::span<Raw> raw = raw_row(row);
+    const auto at = [raw](int column) -> Raw& {
+        return raw[static_cast<std::size_t>((column + kAround) % kAround)];
+    };
+    double smooth = 0.0;
+    double detailed = 0.0;
+    const auto take = [&](int column, double sign) {
+        const double light = sign * static_cast<double>(at(column).smooth_cd_m2);
+        smooth += light;
+        detailed += light * static_cast<double>(at(column).detail);
+    };
+    for (int column = -kMeanColumns; column < kMeanColumns; ++column)
+        take(column, 1.0);
+    for (int column = 0; column < kAround; ++column) {
+        take(column + kMeanColumns, 1.0);
+        at(column).smooth_sum = smooth;
+        at(column).detailed_sum = detailed;
+        take(column - kMeanColumns, -1.0);
+    }
 }
 
 // Divides by the mean of what the window shows, so that photometry is the fit's.
-void MilkyWayMap::finish() {
-    constexpr int kAround = kWidth - 1;
-    std::vector<double> rows_detailed(texels_.size());
-    std::vector<double> rows_smooth(texels_.size());
-    for (int row = 0; row < kHeight; ++row) {
-        const std::size_t first = static_cast<std::size_t>(row) * kWidth;
-        const auto at = [first](int column) {
-            return first + static_cast<std::size_t>((column + kAround) % kAround);
-        };
-        double smooth = 0.0;
-        double detailed = 0.0;
-        const auto take = [&](int column, double sign) {
-            smooth += sign * static_cast<double>(smooth_[at(column)]);
-            detailed +=
-                sign * static_cast<double>(smooth_[at(column)]) * static_cast<double>(texels_[at(column)]);
-        };
-        for (int column = -kMeanColumns; column < kMeanColumns; ++column)
-            take(column, 1.0);
-        for (int column = 0; column < kAround; ++column) {
-            take(column + kMeanColumns, 1.0);
-            rows_smooth[at(column)] = smooth;
-            rows_detailed[at(column)] = detailed;
-            take(column - kMeanColumns, -1.0);
+void MilkyWayMap::finish_row(int row) noexcept {
+    const int first = std::max(row - kMeanRows, 0);
+    const int last = std::min(row + kMeanRows, kHeight - 1);
+    float* out = &texels_[static_cast<std::size_t>(row) * kWidth];
+    for (std::size_t column = 0; column < kAround; ++column) {
+        double smooth = 1e-12;
+        double detailed = 1e-12;
+        for (int r = first; r <= last; ++r) {
+            const Raw& raw = raw_row(r)[column];
+            smooth += raw.smooth_sum;
+            detailed += raw.detailed_sum;
         }
+        const Raw& here = raw_row(row)[column];
+        const double luminance =
+            static_cast<double>(here.smooth_cd_m2) * static_cast<double>(here.detail) * smooth / detailed;
+        out[column] = static_cast<float>(warped(luminance));
     }
-    for (int column = 0; column < kAround; ++column) {
-        const auto at = [column](int row) {
-            return static_cast<std::size_t>(row) * kWidth + static_cast<std::size_t>(column);
-        };
-        for (int row = 0; row < kHeight; ++row) {
-            double smooth = 1e-12;
-            double detailed = 1e-12;
-            for (int r = std::max(row - kMeanRows, 0); r <= std::min(row + kMeanRows, kHeight - 1); ++r) {
-                smooth += rows_smooth[at(r)];
-                detailed += rows_detailed[at(r)];
-            }
-            const double luminance = static_cast<double>(smooth_[at(row)]) *
-                                     static_cast<double>(texels_[at(row)]) * smooth / detailed;
-            texels_[at(row)] = static_cast<float>(warped(luminance));
-        }
-    }
-    for (std::size_t row = 0; row < static_cast<std::size_t>(kHeight); ++row)
-        texels_[row * kWidth + kAround] = texels_[row * kWidth];
-    smooth_.clear();
-    smooth_.shrink_to_fit();
-    built_ = true;
+    out[kAround] = out[0];
 }
 
 glm::dvec2 MilkyWayMap::place(double longitude_rad, double latitude_rad) noexcept {
@@ -204,7 +203,7 @@ glm::dvec2 MilkyWayMap::place(double longitude_rad, double latitude_rad) noexcep
 
 double MilkyWayMap::luminance_cd_m2(const glm::dvec3& direction) const noexcept {
     const double latitude_rad = std::asin(std::clamp(direction.z, -1.0, 1.0));
-    if (!built_ || std::abs(latitude_rad) >= kBelt_rad) return 0.0;
+    if (!complete() || std::abs(latitude_rad) >= kBelt_rad) return 0.0;
     const double longitude_rad = std::atan2(direction.y, direction.x);
     const glm::dvec2 at =
         place(longitude_rad < 0.0 ? longitude_rad + 2.0 * kPi : longitude_rad, latitude_rad);
@@ -218,6 +217,24 @@ double MilkyWayMap::luminance_cd_m2(const glm::dvec3& direction) const noexcept 
         return std::lerp(static_cast<double>(pair[0]), static_cast<double>(pair[1]), along);
     };
     return unwarped(std::lerp(mixed(t), mixed(t + kWidth), y - static_cast<double>(row)));
+}
+
+double mean_starlight_cd_m2(const MilkyWayMap& map, double longitude_rad, double latitude_rad,
+                            double disc_radius_rad) noexcept {
+    constexpr int kSteps = 4;  // each way from the middle
+    double sum = 0.0;
+    int count = 0;
+    for (int y = -kSteps; y <= kSteps; ++y) {
+        for (int x = -kSteps; x <= kSteps; ++x) {
+            if (x * x + y * y > kSteps * kSteps) continue;
+            const double b = latitude_rad + y * disc_radius_rad / kSteps;
+            const double l = longitude_rad + x * disc_radius_rad / (kSteps * std::cos(b));
+            sum += map.luminance_cd_m2({std::cos(b) * std::cos(l), std::cos(b) * std::sin(l), std::sin(b)}) +
+                   kS10_cd_m2 * starlight_s10(l, b).even;
+            ++count;
+        }
+    }
+    return sum / count;
 }
 
 }  // namespace skyig::render::night

@@ -27,12 +27,14 @@ class MilkyWayMap {
     [[nodiscard]] static double warped(double luminance_cd_m2) noexcept;
     [[nodiscard]] static double unwarped(double t) noexcept;
 
-    /// \param structure  0..1, how much of the detail there is; \param seed  of the noise. Allocates.
-    void begin(double structure, std::uint32_t seed);
-    /// At most so many rows further; true when all are there.
-    bool build_rows(int most_rows);
-    [[nodiscard]] bool complete() const noexcept { return built_; }
-    [[nodiscard]] bool begun() const noexcept { return !texels_.empty(); }
+    /// Allocates all that it will need.
+    MilkyWayMap();
+
+    /// \param structure  0..1, how much of the detail there is; \param seed  of the noise
+    void begin(double structure, std::uint32_t seed) noexcept;
+    /// At most so many rows further; true when all are there. Precondition: begin() was called.
+    bool build_rows(int most_rows) noexcept;
+    [[nodiscard]] bool complete() const noexcept { return next_row_ == kHeight; }
 
     /// Rows from the lowest latitude. Precondition: complete().
     [[nodiscard]] std::span<const float> texels() const noexcept { return texels_; }
@@ -45,15 +47,34 @@ class MilkyWayMap {
     [[nodiscard]] static glm::dvec2 place(double longitude_rad, double latitude_rad) noexcept;
 
   private:
-    void detail_row(int row);
-    void finish();
+    // Half widths of the windows over which detail has mean 1.
+    static constexpr int kMeanColumns = 12;
+    static constexpr int kMeanRows = 8;
+    static constexpr int kAround = kWidth - 1;
+
+    /// What a texel is before the window over it is complete; sums are over the window's columns.
+    struct Raw {
+        float smooth_cd_m2 = 0.0F;
+        float detail = 1.0F;
+        double smooth_sum = 0.0;
+        double detailed_sum = 0.0;
+    };
+    [[nodiscard]] std::span<Raw> raw_row(int row) noexcept;
+    void detail_row(int row) noexcept;
+    void sum_row(int row) noexcept;
+    void finish_row(int row) noexcept;
 
     double structure_ = 1.0;
     std::uint32_t seed_ = 0;
     int next_row_ = 0;
-    bool built_ = false;
     std::vector<float> texels_;
-    std::vector<float> smooth_;
+    std::vector<Raw> raw_;  // of as many rows as the window is high, one in place of the other
 };
+
+/// All starlight about a place, the map's with what is even: mean over a disc, outside the air, cd/m2. What
+/// measurements of that resolution have. Precondition: map.complete(). \param longitude_rad, latitude_rad
+/// galactic, away from the poles
+[[nodiscard]] double mean_starlight_cd_m2(const MilkyWayMap& map, double longitude_rad, double latitude_rad,
+                                          double disc_radius_rad) noexcept;
 
 }  // namespace skyig::render::night

@@ -62,6 +62,10 @@ glm::dvec3 passes_to(const sky::AirTables& air, double height_m, double elevatio
 
 }  // namespace
 
+double night_share(double sun_elevation_rad) noexcept {
+    return smooth_step(-3.0 * kDegree, -5.0 * kDegree, sun_elevation_rad);
+}
+
 NightSky::NightSky() : domes_(kMaxCities) {
     for (Table* table : {&front_, &back_}) {
         table->sky.resize(static_cast<std::size_t>(kSkyRows) * (kColumns + 1));
@@ -91,25 +95,40 @@ NightSky::Fit NightSky::fit(const Table& table, const Made& wanted) noexcept {
     return Fit::kFresh;
 }
 
+NightSky::Made NightSky::made_for(const Scene& scene, const sky::AirTables& air) noexcept {
+    return {air.share(),
+            scene.night,
+            scene.stars.enu_from_gcrs,
+            glm::transpose(scene.stars.enu_from_gcrs) * scene.sun.direction_enu,
+            std::max(scene.eye.height_m, 0.0),
+            scene.eye.latitude_deg,
+            scene.eye.longitude_deg};
+}
+
 bool NightSky::update(const Scene& scene, const sky::AirTables& air) noexcept {
-    const Made wanted{air.share(),
-                      scene.night,
-                      scene.stars.enu_from_gcrs,
-                      glm::transpose(scene.stars.enu_from_gcrs) * scene.sun.direction_enu,
-                      std::max(scene.eye.height_m, 0.0),
-                      scene.eye.latitude_deg,
-                      scene.eye.longitude_deg};
+    const Made wanted = made_for(scene, air);
     const Fit latest = fit(building_ ? back_ : front_, wanted);
-    const bool lost = latest == Fit::kLost;
-    if (lost || (latest == Fit::kStale && !building_)) begin(wanted, air);
-    if (!building_) return false;
-    const int last = lost ? kSkyRows + kGroundRows : next_row_ + kRowsAFrame;
-    for (; next_row_ < std::min(last, kSkyRows + kGroundRows); ++next_row_)
-        build_row(next_row_, air);
-    if (next_row_ < kSkyRows + kGroundRows) return false;
-    std::swap(front_, back_);
-    building_ = false;
+    if (latest == Fit::kLost) front_.valid = false;
+    if (latest == Fit::kLost || (latest == Fit::kStale && !building_)) {
+        begin(wanted, air);
+    } else if (building_) {
+        build_slice(air);
+    } else {
+        return false;
+    }
+    const bool counts = night_share(horizontal_of(scene.sun.direction_enu).elevation_rad) > 0.0;
+    if (counts && !front_.valid) build_all(air);
+    if (!complete()) return false;
+    take_over();
     return true;
+}
+
+void NightSky::build(const Scene& scene, const sky::AirTables& air) noexcept {
+    for (LightDome& dome : domes_)
+        dome = {};
+    begin(made_for(scene, air), air);
+    build_all(air);
+    take_over();
 }
 
 void NightSky::begin(const Made& wanted, const sky::AirTables& air) noexcept {
@@ -117,12 +136,37 @@ void NightSky::begin(const Made& wanted, const sky::AirTables& air) noexcept {
     back_.valid = true;
     building_ = true;
     next_row_ = 0;
-    place_towns(back_, air);
-    // What all the sky sends to the ground, and its mean.
+    aim_at_towns(back_, air);
+    light_evenly(back_, air);
+}
+
+void NightSky::build_slice(const sky::AirTables& air) noexcept {
+    for (std::size_t i = 0; i < back_.made.settings.city_count; ++i) {
+        if (domes_[i].complete()) continue;
+        domes_[i].build_rows(kTownRowsAFrame);
+        return;
+    }
+    for (int i = 0; i < kRowsAFrame && !complete(); ++i)
+        build_row(next_row_++, air);
+}
+
+void NightSky::build_all(const sky::AirTables& air) noexcept {
+    while (!complete())
+        build_slice(air);
+}
+
+void NightSky::take_over() noexcept {
+    std::swap(front_, back_);
+    building_ = false;
+}
+
+// What all the sky sends to the ground, and its mean.
+void NightSky::light_evenly(Table& table, const sky::AirTables& air) noexcept {
     constexpr int kRings = 8;
     constexpr int kAround = 16;
-    const glm::dmat3 gcrs_from_enu = glm::transpose(wanted.enu_from_gcrs);
-    const double airglow = airglow_zenith_cd_m2(wanted.settings);
+    const Made& made = table.made;
+    const glm::dmat3 gcrs_from_enu = glm::transpose(made.enu_from_gcrs);
+    const double airglow = airglow_zenith_cd_m2(made.settings);
     glm::dvec3 mean{0.0};
     glm::dvec3 lux{0.0};
     glm::dvec3 lost{0.0};
@@ -135,17 +179,17 @@ void NightSky::begin(const Made& wanted, const sky::AirTables& air) noexcept {
         for (int i = 0; i < kAround; ++i) {
             const glm::dvec3 direction = direction_of({elevation_rad, 2.0 * kPi * (i + 0.5) / kAround});
             const glm::dvec3 outside =
-                glow + whole_beyond_air_cd_m2(wanted.settings, gcrs_from_enu * direction, wanted.sun_gcrs);
+                glow + whole_beyond_air_cd_m2(made.settings, gcrs_from_enu * direction, made.sun_gcrs);
             mean += outside / double{kRings * kAround};
             lux += outside * passes * (2.0 * kPi * sine / (kRings * kAround));
         }
         lost += (1.0 - passes) * (2.0 * kPi * sine / kRings);
     }
-    back_.scattered = kScatteredBack * mean;
-    back_.ground_lux = lux + back_.scattered * lost;
+    table.scattered = kScatteredBack * mean;
+    table.ground_lux = lux + table.scattered * lost;
 }
 
-void NightSky::place_towns(Table& table, const sky::AirTables& air) noexcept {
+void NightSky::aim_at_towns(Table& table, const sky::AirTables& air) noexcept {
     constexpr std::size_t kGreen = 8;  // 558 nm
     const TownAir town_air{static_cast<double>(air.model().rayleigh_per_m[kGreen]),
                            static_cast<double>(air.model().aerosol_extinction_per_m[kGreen])};
@@ -163,17 +207,8 @@ void NightSky::place_towns(Table& table, const sky::AirTables& air) noexcept {
             std::sin(here) * std::sin(north) + std::cos(here) * std::cos(north) * std::cos(east);
         TownAt& town = table.towns[i];
         town = {std::atan2(right, ahead), kEarthRadius_m * std::atan2(std::hypot(right, ahead), up)};
-        const bool same =
-            dome_city_[i] == city && dome_air_ == town_air &&
-            std::abs(dome_distance_m_[i] - town.distance_m) < 0.01 * (town.distance_m + city.radius_m) &&
-            !sky::height_is_stale(made.height_m, dome_height_m_[i]);
-        if (same) continue;
-        domes_[i].build(city, town_air, town.distance_m, made.height_m);
-        dome_city_[i] = city;
-        dome_distance_m_[i] = town.distance_m;
-        dome_height_m_[i] = made.height_m;
+        domes_[i].aim(city, town_air, town.distance_m, made.height_m);
     }
-    dome_air_ = town_air;
 }
 
 void NightSky::build_row(int row, const sky::AirTables& air) noexcept {

@@ -2,6 +2,7 @@
 // and the glow of towns, in one table of directions that follows the turning sky. Free of GL.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <memory>
@@ -13,25 +14,33 @@
 
 namespace skyig::render::night {
 
+/// How much of the dark sky is drawn, 0..1: it fades in at dusk. With a town in it it has up to 0.02 cd/m2;
+/// twilight falls from 10 to 2 meanwhile.
+[[nodiscard]] double night_share(double sun_elevation_rad) noexcept;
+
 /// Extinction is AirTables::transmittance_rgb(), the stars' own: once, from outside the air to the eye. Of
 /// what the air takes from a ray it gives 0.6 of the sky's mean light back (two thirds of the sphere's light,
 /// less what the ground keeps); towns' light comes from within the air as it is.
 ///
-/// Tables are built in slices beside the one in use, a fixed number of rows a frame; new ones are due when
-/// the sky has turned by 0.1 deg (half a code of the steepest zodiacal light), or eye, air or settings
-/// changed.
+/// Tables are built in slices beside the one in use, a fixed number of rows a frame: first those of the towns
+/// whose light has changed, one town after another, then its own. New ones are due when the sky has turned by
+/// 0.1 deg (half a code of the steepest zodiacal light), or eye, air or settings changed.
 class NightSky {
   public:
     static constexpr int kSkyRows = 40;
     static constexpr int kGroundRows = 16;
     static constexpr int kColumns = 72;
     static constexpr int kRowsAFrame = 4;
+    static constexpr int kTownRowsAFrame = 10;
 
     NightSky();
 
-    /// Once a frame. Builds at once what is altogether out of date. Allocates nothing.
-    /// \return whether another table came into use
+    /// Once a frame. What is altogether out of date is built at once if it counts: where night_share() of the
+    /// scene's Sun is not 0. Allocates nothing. \return whether another table came into use
     bool update(const Scene& scene, const sky::AirTables& air) noexcept;
+
+    /// Builds at once a table for that scene alone, whatever was there before.
+    void build(const Scene& scene, const sky::AirTables& air) noexcept;
 
     /// Linear Rec.709, cd/m2. \param above_rad  straight elevation less that of the straight horizon, both of
     /// the frame's eye; below it the value at the edge
@@ -82,9 +91,15 @@ class NightSky {
         bool valid = false;
     };
     enum class Fit { kFresh, kStale, kLost };
+    [[nodiscard]] static Made made_for(const Scene& scene, const sky::AirTables& air) noexcept;
     [[nodiscard]] static Fit fit(const Table& table, const Made& wanted) noexcept;
     void begin(const Made& wanted, const sky::AirTables& air) noexcept;
-    void place_towns(Table& table, const sky::AirTables& air) noexcept;
+    void aim_at_towns(Table& table, const sky::AirTables& air) noexcept;
+    void light_evenly(Table& table, const sky::AirTables& air) noexcept;
+    void build_slice(const sky::AirTables& air) noexcept;
+    void build_all(const sky::AirTables& air) noexcept;
+    [[nodiscard]] bool complete() const noexcept { return next_row_ == kSkyRows + kGroundRows; }
+    void take_over() noexcept;
     void build_row(int row, const sky::AirTables& air) noexcept;
     void build_sky_row(int row, const sky::AirTables& air) noexcept;
     void build_ground_row(int row, const sky::AirTables& air) noexcept;
@@ -94,10 +109,6 @@ class NightSky {
     bool building_ = false;
     int next_row_ = 0;
     std::vector<LightDome> domes_;
-    std::array<City, kMaxCities> dome_city_{};
-    std::array<double, kMaxCities> dome_distance_m_{};
-    std::array<double, kMaxCities> dome_height_m_{};
-    TownAir dome_air_;
 };
 
 }  // namespace skyig::render::night

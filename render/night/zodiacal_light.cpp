@@ -43,8 +43,11 @@ constexpr std::array<std::array<double, kColumns>, kRows> kTable{{
 }};
 
 double corona_s10(double longitude_deg, double latitude_deg) {
-    const double cosine = std::cos(longitude_deg * kDegree) * std::cos(latitude_deg * kDegree);
-    const double elongation_deg = std::acos(std::clamp(cosine, -1.0, 1.0)) / kDegree;
+    const double longitude_rad = longitude_deg * kDegree;
+    const double latitude_rad = latitude_deg * kDegree;
+    const double sine = std::hypot(std::cos(latitude_rad) * std::sin(longitude_rad), std::sin(latitude_rad));
+    const double elongation_deg =
+        std::atan2(sine, std::cos(latitude_rad) * std::cos(longitude_rad)) / kDegree;
     return 9000.0 * std::pow(15.0 / std::max(elongation_deg, 2.5), 2.3);
 }
 
@@ -94,11 +97,14 @@ double zodiacal_s10(double longitude_rad, double latitude_rad) noexcept {
 double zodiacal_s10(const glm::dvec3& direction_gcrs, const glm::dvec3& sun_gcrs) noexcept {
     static const double c = std::cos(kObliquity_rad);
     static const double s = std::sin(kObliquity_rad);
-    const double north = std::clamp(c * direction_gcrs.z - s * direction_gcrs.y, -1.0, 1.0);
-    const double level = std::sqrt((1.0 - north) * (1.0 + north));
+    const glm::dvec3 pole{0.0, -s, c};
+    const double north = std::abs(glm::dot(pole, direction_gcrs));
+    const double level = glm::length(glm::cross(pole, direction_gcrs));
     // cos elongation = cos latitude cos longitude, the Sun on the ecliptic.
-    const double cosine = glm::dot(direction_gcrs, sun_gcrs) / std::max(level, 1e-9);
-    return zodiacal_s10(std::acos(std::clamp(cosine, -1.0, 1.0)), std::asin(north));
+    const double apart = glm::length(glm::cross(sun_gcrs, direction_gcrs));
+    const double aside = std::sqrt(std::max(0.0, (apart - north) * (apart + north)));
+    const double towards = glm::dot(sun_gcrs, direction_gcrs);
+    return zodiacal_s10(std::atan2(aside, towards), std::atan2(north, level));
 }
 
 double typical_zodiacal_s10() noexcept {

@@ -2,11 +2,17 @@
 // of the same size, drawn in turn with it in the same run. Medians of wall time, and of the processor time of
 // all threads, which other work on the machine touches less.
 //   frame_bench [ROUNDS]     default 60
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
+#include "render/geometry.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/texture.h"
+#include "render/night/starlight.h"
 #include "render/renderer.h"
 #include "tests/bench/spent.h"
 #include "tests/render/scenes.h"
@@ -44,6 +50,52 @@ Costs measure(Renderer& renderer, Scene scene, int rounds) {
     return costs;
 }
 
+using NamedView = tests::NamedScene;  // with its one view
+
+void look_at(Scene& scene, double azimuth_deg, double elevation_deg, double width_deg) {
+    tests::add_view(scene, tests::symmetric_frustum(0.5 * width_deg, kWidth, kHeight),
+                    tests::view_from_enu(azimuth_deg, elevation_deg, 0.0));
+}
+
+// Midnight of a June night at 40 deg south: the Milky Way's centre stands near the zenith.
+Scene june_night(double moon_elevation_deg) {
+    Scene scene = tests::make_scene(-60.0, 180.0, moon_elevation_deg, 0.0, 600.0);
+    scene.stars.enu_from_gcrs = enu_from_equatorial(-40.0 * tests::kDegree, 270.0 * tests::kDegree);
+    return scene;
+}
+
+void add_nights(std::vector<NamedView>& views) {
+    const Scene moonless = june_night(-40.0);
+    const glm::dmat3 enu_from_galactic =
+        moonless.stars.enu_from_gcrs * glm::transpose(night::galactic_from_gcrs());
+    const Horizontal centre = horizontal_of(enu_from_galactic * glm::dvec3{1.0, 0.0, 0.0});
+    views.push_back({"milky way", moonless});
+    look_at(views.back().scene, centre.azimuth_rad / tests::kDegree, centre.elevation_rad / tests::kDegree,
+            60.0);
+    const Horizontal pole = horizontal_of(enu_from_galactic * glm::dvec3{0.0, 0.0, 1.0});
+    views.push_back({"moonless away", moonless});
+    look_at(views.back().scene, pole.azimuth_rad / tests::kDegree, 15.0, 60.0);
+    views.push_back({"dusk -6", tests::make_scene(-6.0, 235.0, -40.0, 100.0, 300.0)});
+    look_at(views.back().scene, 235.0, 8.0, 60.0);
+    views.push_back({"full moon 10", june_night(60.0)});
+    look_at(views.back().scene, 0.0, 60.0, 10.0);
+}
+
+std::vector<NamedView> all_views() {
+    auto views = tests::four_times();
+    views.push_back({"sea", tests::make_scene(48.0, 185.0, -10.0, 40.0, 30.0)});
+    views[4].scene.ground.kind = Ground::Kind::kSea;
+    views.push_back({"waves", views[4].scene});
+    tests::add_waves(views[5].scene);
+    for (auto& [name, scene] : views) {
+        const double yaw_deg = name == "dawn" ? 120.0 : name == "dusk" ? 235.0 : 175.0;
+        const double pitch_deg = scene.ground.kind == Ground::Kind::kSea ? -20.0 : 8.0;  // nine tenths sea
+        look_at(scene, yaw_deg, pitch_deg, 60.0);
+    }
+    add_nights(views);
+    return views;
+}
+
 // Another renderer's picture over the whole channel, all of it at 20 km.
 void print_deferred(Scene scene, int rounds) {
     constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
@@ -51,8 +103,7 @@ void print_deferred(Scene scene, int rounds) {
     const gl::Texture depth(gl::TexelFormat::kR32F, kWidth, kHeight);
     colour.update(std::vector<float>(kPixels * 4, 2000.0F));
     depth.update(std::vector<float>(kPixels, 0.2F));
-    tests::add_view(scene, tests::symmetric_frustum(30.0, kWidth, kHeight),
-                    tests::view_from_enu(175.0, 8.0, 0.0));
+    look_at(scene, 175.0, 8.0, 60.0);
     Renderer renderer({{"only", kWidth, kHeight}}, {});
     Write write_once(kWidth, kHeight);
     std::vector<double> writes, draws, shared;
@@ -74,8 +125,7 @@ void print_deferred(Scene scene, int rounds) {
 void print_stars(double width_deg, int rounds) {
     Scene scene = tests::make_scene(-40.0, 0.0, -40.0, 90.0, 600.0);
     scene.sky.star_scintillation = true;
-    tests::add_view(scene, tests::symmetric_frustum(0.5 * width_deg, kWidth, kHeight),
-                    tests::view_from_enu(175.0, 40.0, 0.0));
+    look_at(scene, 175.0, 40.0, width_deg);
     Scene starless = scene;
     starless.stars.enabled = false;
     Renderer renderer({{"only", kWidth, kHeight}}, {});
@@ -114,23 +164,15 @@ int main(int argc, char** argv) {
     const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 60;
     const gl::HeadlessContext context = gl::HeadlessContext::create(false);
     std::printf("%s, %dx%d, medians of %d rounds\n", context.description().c_str(), kWidth, kHeight, rounds);
-    std::printf("%-6s %9s %9s %9s %9s %11s %9s %6s\n", "scene", "write ms", "draw ms", "writes", "of cpu",
+    std::printf("%-14s %9s %9s %9s %9s %11s %9s %6s\n", "scene", "write ms", "draw ms", "writes", "of cpu",
                 "shared ms", "read ms", "stars");
-    auto scenes = tests::four_times();
-    scenes.push_back({"sea", tests::make_scene(48.0, 185.0, -10.0, 40.0, 30.0)});
-    scenes.push_back({"waves", scenes.back().scene});
-    scenes[4].scene.ground.kind = Ground::Kind::kSea;
-    tests::add_waves(scenes[5].scene);
-    for (auto& [name, scene] : scenes) {
-        const double yaw = name == "dawn" ? 120.0 : name == "dusk" ? 235.0 : 175.0;
-        const double pitch = scene.ground.kind == Ground::Kind::kSea ? -20.0 : 8.0;  // nine tenths of it sea
-        tests::add_view(scene, tests::symmetric_frustum(30.0, kWidth, kHeight),
-                        tests::view_from_enu(yaw, pitch, 0.0));
+    for (const NamedView& view : all_views()) {
         Renderer renderer({{"only", kWidth, kHeight}}, {});
-        const Costs costs = measure(renderer, scene, rounds);
-        std::printf("%-6s %9.2f %9.2f %9.2f %9.2f %11.3f %9.2f %6zu\n", name.c_str(), median(costs.write),
-                    median(costs.draw), median(costs.ratio), median(costs.processor_ratio),
-                    median(costs.prepare), median(costs.read_back), renderer.prepare(scene).stars_drawn);
+        const Costs costs = measure(renderer, view.scene, rounds);
+        std::printf("%-14s %9.2f %9.2f %9.2f %9.2f %11.3f %9.2f %6zu\n", view.name.c_str(),
+                    median(costs.write), median(costs.draw), median(costs.ratio),
+                    median(costs.processor_ratio), median(costs.prepare), median(costs.read_back),
+                    renderer.prepare(view.scene).stars_drawn);
     }
     for (const double width_deg : {60.0, 120.0})
         print_stars(width_deg, rounds);

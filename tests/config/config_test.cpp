@@ -264,6 +264,15 @@ TEST(Config, ChannelsScreenIsAVariantOfTheUsualOne) {
     EXPECT_EQ(wrong.errors.front().key, "channel[1].display.dither");
 }
 
+TEST(Config, AScreenThatCanShowNothingAboveItsBlackIsRefused) {
+    const ConfigError error = error_of(with("[display]\nmax_luminance_cd_m2 = 100\nreflected_cd_m2 = 120"));
+    EXPECT_EQ(error.key, "display.reflected_cd_m2");
+    EXPECT_EQ(error.line, 4);
+    EXPECT_THAT(error.message, HasSubstr("full white, 100 cd/m2, must be more"));
+    EXPECT_EQ(error_of(with("[display]\nblack_cd_m2 = 400")).key, "display.black_cd_m2");
+    EXPECT_TRUE(errors_of(with("[display]\nmax_luminance_cd_m2 = 100\nreflected_cd_m2 = 99")).empty());
+}
+
 TEST(Config, UnknownKeyIsLocatedAndTheNearestIsSuggested) {
     const ConfigError error = error_of(with("[display]\n  max_luminence_cd_m2 = 80"));
     EXPECT_EQ(error.line, 3);

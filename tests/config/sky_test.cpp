@@ -8,6 +8,7 @@
 namespace skyig::config {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 std::string with(std::string_view lines) {
@@ -120,10 +121,20 @@ population = 400000
 }
 
 TEST(NightSettings, RefusesWhatACityCannotBe) {
-    EXPECT_THAT(error_of(with("[[night.city]]\nlatitude_deg = 1\nlongitude_deg = 2\nzenith_cd_m2 = 0.1\n"
-                              "population = 5\n")),
+    const auto city = [](const std::string& light) {
+        return with("[[night.city]]\nlatitude_deg = 1\nlongitude_deg = 2\n" + light);
+    };
+    EXPECT_THAT(error_of(city("zenith_cd_m2 = 0.01\npopulation = 5\n")),
                 HasSubstr("night.city[1].population: stands beside zenith_cd_m2"));
-    EXPECT_THAT(error_of(with("[[night.city]]\nlatitude_deg = 1\n")),
+    EXPECT_THAT(error_of(city("radius_km = 5\n")),
+                AllOf(HasSubstr("night.city[1].zenith_cd_m2"), HasSubstr("or population in its place")));
+    EXPECT_THAT(error_of(city("zenith_cd_m2 = 0\n")), HasSubstr("night.city[1].zenith_cd_m2: is 0"));
+    EXPECT_THAT(error_of(city("zenith_cd_m2 = 0.021\n")), HasSubstr("0.02 cd/m2"));
+    EXPECT_THAT(error_of(city("population = 0\n")), HasSubstr("night.city[1].population: is 0"));
+    EXPECT_THAT(error_of(city("population = 1000000\nradius_km = 6\n")),
+                HasSubstr("night.city[1].population: is 8842 a km2 of its disc; at most 8000"));
+    EXPECT_TRUE(parse_config(city("population = 1000000\nradius_km = 7\n"), "site.toml"));
+    EXPECT_THAT(error_of(with("[[night.city]]\nlatitude_deg = 1\npopulation = 5\n")),
                 HasSubstr("night.city[1].longitude_deg"));
     EXPECT_THAT(error_of(with("[night]\ncity = 3\n")), HasSubstr("[[night.city]]"));
     EXPECT_THAT(error_of(with("[night]\nairglo = true\n")), HasSubstr("airglow"));

@@ -7,6 +7,7 @@
 
 #include "render/gl/texture.h"
 #include "render/light_tables.h"
+#include "render/sky_frame.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/support/allocation_count.h"
 
@@ -123,6 +124,37 @@ TEST_F(Allocation, NorDoFramesWithAnotherRenderersPicture) {
         flight.frames(kWarmUpFrames);
         EXPECT_EQ(flight.frames(100), 0) << name;
     }
+}
+
+// Without GL: what an evening brings in, and another Milky Way by night.
+TEST(FrameAllocation, NothingIsAllocatedAtNightfallNorForAnotherMilkyWay) {
+    Scene scene = make_scene(5.0, 0.0, -40.0, 180.0, 500.0);
+    SkyFrame frame({}, {});
+    frame.prepare(scene, 8e-4);
+    // Frames in which the belt was drawn; the eye has the time to get used to the dark.
+    const auto frames = [&](int count, double sun_deg) {
+        scene.sun.direction_enu = at(sun_deg, 0.0);
+        int drawn = 0;
+        for (int i = 0; i < count; ++i) {
+            scene.time_s += 600.0;
+            frame.prepare(scene, 8e-4);
+            drawn += frame.plan().needs(Pass::kMilkyWay) && frame.milky_way().map().complete() ? 1 : 0;
+        }
+        return drawn;
+    };
+    constexpr int kMapFrames = night::MilkyWayMap::kHeight / night::MilkyWayMap::kRowsAFrame;
+    const auto before = skyig::tests::allocation_count();
+    const int at_dusk = frames(20, -2.5) + frames(10, -4.0);
+    const int by_night = frames(kMapFrames + 10, -35.0);
+    scene.night.seed = 2;
+    const int while_made = frames(kMapFrames, -35.0);
+    const int at_last = frames(5, -35.0);
+    const auto allocations = skyig::tests::allocation_count() - before;
+    EXPECT_EQ(at_dusk, 0);
+    EXPECT_GT(by_night, 0);
+    EXPECT_EQ(while_made, 0) << "it is made in slices";
+    EXPECT_EQ(at_last, 5);
+    EXPECT_EQ(allocations, 0U);
 }
 
 }  // namespace

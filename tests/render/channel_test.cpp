@@ -54,6 +54,18 @@ TEST(ChannelFrames, RotationsAreProper) {
             EXPECT_NEAR(identity[i][j], i == j ? 1.0 : 0.0, 1e-15);
 }
 
+TEST(EquatorialAxes, PoleStandsAtTheLatitudeAndTheMeridianIsTheSiderealTimes) {
+    const glm::dmat3 enu = enu_from_equatorial(-0.6, 1.3);
+    const Horizontal pole = horizontal_of(enu * glm::dvec3{0.0, 0.0, 1.0});
+    EXPECT_NEAR(pole.elevation_rad, -0.6, 1e-12);
+    EXPECT_NEAR(pole.azimuth_rad, 0.0, 1e-12);
+    const Horizontal equator = horizontal_of(enu * glm::dvec3{std::cos(1.3), std::sin(1.3), 0.0});
+    EXPECT_NEAR(equator.elevation_rad, 0.5 * std::numbers::pi - 0.6, 1e-12);
+    EXPECT_NEAR(equator.azimuth_rad, 0.0, 1e-12) << "north of a southern site";
+    // Right ascension grows to the east.
+    EXPECT_GT((enu * glm::dvec3{std::cos(1.5), std::sin(1.5), 0.0}).x, 0.0);
+}
+
 TEST(ViewDirection, CornersOfAnOffAxisFrustumLieOnItsSidePlanes) {
     const Channel channel{"off", 640, 480};
     const Frustum frustum{-10 * kDegree, 50 * kDegree, -40 * kDegree, 5 * kDegree};

@@ -176,6 +176,29 @@ TEST(Dome, BudgetDecidesHowFineItIs) {
     }
 }
 
+TEST(Dome, ASetClockOrAnEyeCarriedAwayShowsTheNewSkyAtOnce) {
+    const Scene noon = make_scene(40.0, 180.0, -40.0, 20.0, 500.0);
+    const Scene moonless = make_scene(-45.0, 350.0, -50.0, 80.0, 500.0);
+    for (const double step_s : {39600.0, 0.03}) {
+        SkyFrame frame({}, {});
+        Scene scene = noon;
+        for (int i = 0; i < 3; ++i, scene.time_s += 0.03)
+            frame.prepare(scene, kPixel_rad);
+        const double time_s = scene.time_s;
+        scene = moonless;
+        scene.time_s = time_s + step_s;
+        frame.prepare(scene, kPixel_rad);
+        EXPECT_LT(frame.adaptation_cd_m2(), 1e-3) << step_s;
+        const DomeLight dome(frame);
+        for (const double elevation_deg : {-20.0, 2.0, 30.0, 80.0}) {
+            const glm::dvec3 direction = tests::at(elevation_deg, 100.0);
+            const glm::dvec3 off =
+                glm::abs(dome.colour(direction).value() - frame.exact_dome_colour(direction));
+            EXPECT_LT(255.0 * std::max({off.x, off.y, off.z}), 1.0) << step_s << " s, " << elevation_deg;
+        }
+    }
+}
+
 TEST(Dome, NewAirFadesInAndEndsAtItsOwnColours) {
     SkyFrame frame({}, {});
     Scene scene = make_scene(20.0, 120.0, -20.0, 300.0, 300.0);

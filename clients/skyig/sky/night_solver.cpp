@@ -6,8 +6,6 @@
 #include "render/geometry.h"
 #include "render/light_tables.h"
 #include "render/night/moon_light.h"
-#include "render/night/natural_light.h"
-#include "render/night/starlight.h"
 
 namespace skyig::clients::sky {
 
@@ -61,13 +59,11 @@ void NightSolver::begin(double altitude_m, double sun_zenith_deg) {
     light_.ground_albedo = render::sky::luminous_albedo(tables_.model(), tables_.model().ground_albedo);
     light_by_sun_and_moon(plan);
     if (!(plan.night_share > 0.0)) return;
-    night_sky_.update(dark_scene_, tables_);
+    night_sky_.build(dark_scene_, tables_);
     light_.night = &night_sky_;
     light_.night_share = static_cast<float>(plan.night_share);
     if (!milky_way_.complete() || dark_scene_.night.model != render::NightModel::kSources) return;
-    light_.milky_way = {
-        &milky_way_, render::night::galactic_from_gcrs() * glm::transpose(dark_scene_.stars.enu_from_gcrs),
-        static_cast<float>(plan.night_share * render::night::starlight_share(dark_scene_.night))};
+    light_.milky_way = render::lit_belt(dark_scene_, milky_way_, plan.night_share);
 }
 
 void NightSolver::light_by_sun_and_moon(const render::Plan& plan) {

@@ -51,6 +51,19 @@ void expect_complete(const Report& report) {
     }
 }
 
+/// Bounds row by row are those of the tests of render/night; no source may stray from its tables as a whole.
+void expect_night_near_its_tables(const Report& report) {
+    for (const ModelEntry& model : report.models) {
+        const ErrorEntry* all = find_error(model, "light", "all its rows");
+        ASSERT_NE(all, nullptr) << model.name;
+        EXPECT_LT(all->figures.rms, 0.5) << model.name;
+        std::size_t rows = 0;
+        for (const ErrorEntry& entry : model.errors)
+            rows += &entry == all ? 0 : entry.figures.count;
+        EXPECT_EQ(rows, all->figures.count) << model.name;
+    }
+}
+
 TEST(Families, EachIsMeasuredWhole) {
     const server::SystemClock clock;
     for (const Family& family : families()) {
@@ -61,6 +74,7 @@ TEST(Families, EachIsMeasuredWhole) {
         SCOPED_TRACE(report.family);
         EXPECT_EQ(report.family, family.name);
         expect_complete(report);
+        if (report.family == "night") expect_night_near_its_tables(report);
         const std::string json = to_json(report);
         EXPECT_EQ(to_json(report_from_json(json)), json);
         std::printf("%s", to_text(report).c_str());

@@ -48,7 +48,8 @@ TEST(Pages, FamilyPageHoldsPlotsErrorsAndCosts) {
          {"# Dials & hands", "(dials-hands.svg)", "### day", "### night",
           "| hour | rough | 40 | 20 | 39 | arcsec | 24 |",
           "| hour | fine | 0.08 | 0.04 | 0.07 | arcsec | 12 |", "| read | rough | 10 | 9 - 11 | 5 | 31 |",
-          "| read | fine | 1000 | 900 - 1100 | 500 | not counted |", "a glance: 2 ns", "11 rounds"})
+          "| read | fine | 1000 | 900 - 1100 | 500 | not counted |", "a glance: 2 ns", "11 rounds",
+          "| rough | day | noon \\| sharp | 12 | 11.9 | h | -360 |"})
         EXPECT_NE(page.find(wanted), std::string::npos) << wanted << " in\n" << page;
 }
 

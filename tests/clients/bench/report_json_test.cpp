@@ -19,6 +19,9 @@ TEST(ReportJson, ComesBackAsItWasWritten) {
     EXPECT_EQ(again.models[0].costs[0].floors, report.models[0].costs[0].floors);
     EXPECT_EQ(again.models[0].costs[0].instructions, 31.0);
     EXPECT_FALSE(again.models[1].costs[0].instructions.has_value());
+    ASSERT_EQ(again.models[0].rows.size(), 1U);
+    EXPECT_EQ(again.models[0].rows[0].row, "noon | sharp");
+    EXPECT_EQ(again.models[0].rows[0].off, -360.0);
     EXPECT_EQ(again.plots[0].series[1].quantity, "minute");
     ASSERT_EQ(again.curves.size(), 1U);
     EXPECT_EQ(again.curves[0].curves[0].label, "a < b");

@@ -22,7 +22,8 @@ inline clients::bench::Report sample_report() {
                      {{"hour", "day", "arcsec", {40.0, 20.0, 39.0, 24}},
                       {"minute", "day", "arcsec", {10.0, 5.0, 9.0, 24}}},
                      {{"read", {9.0, 10.0, 11.0}, {4.5, 5.0, 5.5}, 31.0}},
-                     {{"face", 4096}, {"spring", 120}}};
+                     {{"face", 4096}, {"spring", 120}},
+                     {{"day", "noon | sharp", "h", 12.0, 11.9, -360.0}}};
     ModelEntry fine{"fine",
                     "two | hands",
                     {{"hour", "day", "arcsec", {0.04, 0.02, 0.039, 24}},

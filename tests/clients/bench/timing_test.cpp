@@ -30,15 +30,18 @@ TEST(Timing, CostsComeOutAsNanosecondsAndFloors) {
     const std::vector<Contender> contenders{
         {"a", "x", work_of_ns(clock, 30.0, slowness), {}},
         {"b", "x", work_of_ns(clock, 250'000.0, slowness), {}},
-        {"c", "x", work_of_ns(clock, 30.0, slowness), work_of_ns(clock, 60.0, slowness)}};
+        {"c", "x", work_of_ns(clock, 30.0, slowness), work_of_ns(clock, 60.0, slowness)},
+        {"d", "x", work_of_ns(clock, 2000.0, slowness), {}, 1, 50}};
     const PairedTimings timings =
         measure_paired(clock, work_of_ns(clock, 10.0, slowness), contenders, {5, 100'000.0});
-    ASSERT_EQ(timings.contenders.size(), 3U);
+    ASSERT_EQ(timings.contenders.size(), 4U);
     EXPECT_NEAR(timings.contenders[0].ns.median, 30.0, 1e-9);
     EXPECT_NEAR(timings.contenders[0].floors.median, 3.0, 1e-9);
     EXPECT_NEAR(timings.contenders[1].ns.median, 250'000.0, 1e-9);
     EXPECT_NEAR(timings.contenders[1].floors.median, 25'000.0, 1e-6);
     EXPECT_NEAR(timings.contenders[2].floors.median, 0.5, 1e-9) << "has a floor of its own";
+    EXPECT_NEAR(timings.contenders[3].ns.median, 40.0, 1e-9) << "fifty things a call";
+    EXPECT_NEAR(timings.contenders[3].floors.median, 4.0, 1e-9);
     EXPECT_NEAR(timings.floor_ns.median, 10.0, 1e-9);
 }
 

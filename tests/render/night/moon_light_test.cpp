@@ -18,7 +18,6 @@ namespace skyig::render {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMeanDistance_km = 384400.0;
 
 double magnitude(double lux) {
     return -2.5 * std::log10(lux / 2.54e-6);

@@ -154,7 +154,9 @@ TEST(LightDome, TableIsTheFormulaAndStandsOverTheTown) {
     const City town{.radius_m = 8000.0, .zenith_cd_m2 = 6e-3};
     const double lumen = town_lumen(town, air);
     LightDome dome;
-    dome.build(town, air, 30e3, 500.0);
+    dome.aim(town, air, 30e3, 500.0);
+    for (int slice = 0; !dome.build_rows(7); ++slice)
+        ASSERT_LT(slice, 10);
     double largest = 0.0;
     for (const double elevation_deg : {1.0, 5.0, 17.0, 40.0, 88.0}) {
         for (const double azimuth_deg : {0.0, 4.0, 33.0, 100.0, 175.0}) {
@@ -168,6 +170,56 @@ TEST(LightDome, TableIsTheFormulaAndStandsOverTheTown) {
     EXPECT_LT(largest, 0.06);
     EXPECT_GT(dome.luminance_cd_m2(0.05, 0.0), 10.0 * dome.luminance_cd_m2(0.5 * kPi, 0.0));
     EXPECT_NEAR(town_glow_cd_m2(lumen, town.radius_m, air, 0.0, 0.0, 0.5 * kPi, 0.0), 6e-3, 1e-9);
+}
+
+TEST(LightDome, KeepsItsRowsWhileTheyServe) {
+    const TownAir air;
+    const City town{.radius_m = 8000.0, .population = 1e5};
+    LightDome dome;
+    const auto kept = [&](const City& city, const TownAir& in, double distance_m, double height_m) {
+        dome.aim(town, air, 30e3, 1000.0);
+        dome.build_rows(LightDome::kRows);
+        dome.aim(city, in, distance_m, height_m);
+        return dome.complete();
+    };
+    EXPECT_TRUE(kept(town, air, 30.2e3, 1010.0));
+    EXPECT_FALSE(kept(town, air, 31e3, 1000.0));
+    EXPECT_FALSE(kept(town, air, 30e3, 1030.0));
+    EXPECT_FALSE(kept(town, {2e-5, 2e-5}, 30e3, 1000.0));
+    EXPECT_FALSE(kept({.radius_m = 8000.0, .population = 2e5}, air, 30e3, 1000.0));
+}
+
+TEST(LightDome, GlowHardlyChangesWithinAStepOfHeight) {
+    const TownAir air;
+    double largest = 0.0;
+    for (const double height_m : {1e3, 3e3, 10e3}) {
+        for (const double distance_m : {2e3, 15e3, 60e3}) {
+            for (const double elevation_deg : {0.5, 5.0, 30.0, 85.0}) {
+                const auto glow = [&](double at_m) {
+                    return town_glow_cd_m2(1e9, 8000.0, air, distance_m, at_m, elevation_deg * kDegree, 0.2);
+                };
+                const double next_m = height_m + LightDome::height_step_m(height_m);
+                largest = std::max(largest, std::abs(std::log(glow(next_m) / glow(height_m))));
+            }
+        }
+    }
+    std::printf("a step of height changes the glow by up to %.3f\n", largest);
+    EXPECT_LT(largest, 0.03);
+    EXPECT_GT(largest, 0.01);
+}
+
+// The most that a configuration may ask for.
+TEST(LightDome, EightThousandHeadsAKm2AreAtMostTwoHundredthsOfACandela) {
+    const TownAir air;
+    double brightest = 0.0;
+    for (const double radius_m : {100.0, 1e3, 8e3, 30e3, 100e3}) {
+        const City town{.radius_m = radius_m, .population = 8e-3 * kPi * radius_m * radius_m};
+        brightest = std::max(brightest,
+                             town_glow_cd_m2(town_lumen(town, air), radius_m, air, 0.0, 0.0, 0.5 * kPi, 0.0));
+    }
+    std::printf("zenith over the town: up to %.4f cd/m2\n", brightest);
+    EXPECT_LT(brightest, 0.02);
+    EXPECT_GT(brightest, 0.01);
 }
 
 TEST(NaturalLight, SwitchesTakeTheirShare) {

@@ -8,15 +8,12 @@
 #include <numbers>
 #include <string>
 
-#include "render/colour.h"
-#include "render/light_tables.h"
 #include "render/night/airglow.h"
-#include "render/night/light_dome.h"
 #include "render/night/milky_way_map.h"
 #include "render/night/natural_light.h"
 #include "render/night/starlight.h"
 #include "render/night/zodiacal_light.h"
-#include "render/shaders/shared.h"
+#include "render/still_light.h"
 #include "tests/csv.h"
 #include "tests/render/scenes.h"
 
@@ -32,47 +29,18 @@ double magnitude(double cd_m2) {
     return -2.5 * std::log10(cd_m2 / 1.0807e5);
 }
 
-// The frame's own light, as SkyFrame has it.
-class Drawn {
-  public:
+struct Drawn {
     Scene scene = make_scene(-40.0, 0.0, -40.0, 180.0, 0.0);
 
     Drawn() { scene.night.model = NightModel::kMean; }
 
-    SkyLight light() {
-        const sky::RefractionRow refraction = tables_.refraction(scene);
-        Plan plan;
-        // A table that is only a little old is made anew in slices.
-        constexpr int kFrames = 20;
-        for (int frame = 0; frame < kFrames; ++frame) {
-            plan = make_plan(scene, tables_.held(scene), refraction);
-            tables_.update(scene, plan);
-        }
-        return tables_.light(scene, plan, refraction);
+    const StillLight& now() {
+        still.settle(scene);
+        return still;
     }
-    double zenith_cd_m2() {
-        return static_cast<double>(shaders32::luminance_709(light().rgb_cd_m2(0.5 * kPi, 0.0, Side::kSky)));
-    }
-    /// Of level ground at the eye by the sky alone.
-    double sky_lux() {
-        const SkyLight now = light();
-        constexpr int kRings = 24;
-        constexpr int kAround = 24;
-        double sum = 0.0;
-        for (int ring = 0; ring < kRings; ++ring) {
-            const double sine = (ring + 0.5) / kRings;
-            for (int i = 0; i < kAround; ++i) {
-                sum += sine * static_cast<double>(shaders32::luminance_709(now.rgb_cd_m2(
-                                  std::asin(sine), 2.0 * kPi * (i + 0.5) / kAround, Side::kSky)));
-            }
-        }
-        return 2.0 * kPi * sum / (kRings * kAround);
-    }
-    const sky::AirTables& air() const { return tables_.air(); }
-    LightTables& tables() { return tables_; }
+    double zenith_cd_m2() { return now().zenith_cd_m2(); }
 
-  private:
-    LightTables tables_;
+    StillLight still;
 };
 
 double anchor(const std::string& name) {
@@ -89,27 +57,10 @@ void expect_anchor(const std::string& name, double ours) {
     EXPECT_NEAR(off, 0.0, 0.3) << name;
 }
 
-// Luminance outside the air, mean over a disc of 2 deg: the resolution of the measurements.
-double belt_cd_m2(const night::MilkyWayMap& map, double l_deg, double b_deg) {
-    double sum = 0.0;
-    int count = 0;
-    for (double y = -2.0; y <= 2.0; y += 0.5) {
-        for (double x = -2.0; x <= 2.0; x += 0.5) {
-            if (x * x + y * y > 4.0) continue;
-            const double l = (l_deg + x) * kDegree;
-            const double b = (b_deg + y) * kDegree;
-            sum += map.luminance_cd_m2({std::cos(b) * std::cos(l), std::cos(b) * std::sin(l), std::sin(b)}) +
-                   night::kS10_cd_m2 * night::starlight_s10(l, b).even;
-            ++count;
-        }
-    }
-    return sum / count;
-}
-
 TEST(NaturalNight, AnchorsAreMetWithinThreeTenthsOfAMagnitude) {
     Drawn drawn;
     expect_anchor("natural zenith dark site typical", drawn.zenith_cd_m2());
-    expect_anchor("horizontal illuminance clear moonless natural", drawn.sky_lux());
+    expect_anchor("horizontal illuminance clear moonless natural", drawn.now().sky_lux());
     const auto zodiacal = [](double longitude_deg, double latitude_deg) {
         return night::kS10_cd_m2 * night::zodiacal_s10(longitude_deg * kDegree, latitude_deg * kDegree);
     };
@@ -121,7 +72,7 @@ TEST(NaturalNight, AnchorsAreMetWithinThreeTenthsOfAMagnitude) {
     night::MilkyWayMap map;
     map.begin(1.0, 1);
     map.build_rows(night::MilkyWayMap::kHeight);
-    expect_anchor("Milky Way l=0 b=-4", belt_cd_m2(map, 0.0, -4.0));
+    expect_anchor("Milky Way l=0 b=-4", night::mean_starlight_cd_m2(map, 0.0, -4.0 * kDegree, 2.0 * kDegree));
     expect_anchor("airglow zenith solar minimum", night::kS10_cd_m2 * night::airglow_zenith_s10(0.0) *
                                                       night::airglow_path(0.5 * kPi, 0.0, false).far);
 }
@@ -184,8 +135,7 @@ TEST(Twilight, DrawnZenithFollowsMeasurements) {
 TEST(Moonlight, ZenithIsThatOfKrisciunasAndSchaefer) {
     Drawn drawn;
     // The table's air takes 0.172 mag from the zenith, which scenes' default air does at sea level.
-    static_cast<void>(drawn.light());
-    const double extinction_mag = -2.5 * std::log10(drawn.air().transmittance_rgb(0.0, 0.5 * kPi).y);
+    const double extinction_mag = -2.5 * std::log10(drawn.now().air().transmittance_rgb(0.0, 0.5 * kPi).y);
     std::printf("extinction %.3f mag\n", extinction_mag);
     EXPECT_NEAR(extinction_mag, 0.172, 0.03);
     double largest = 0.0;
@@ -214,13 +164,10 @@ TEST(GroundIlluminance, SunsIsTheTablesWithinAFactor) {
         for (const auto& row : rows) {
             const double sun_deg = row.number("sun_alt_deg");
             drawn.scene.sun.direction_enu = at(sun_deg, 0.0);
-            const double sky = drawn.sky_lux();
-            const double seen_rad = drawn.light().refraction.apparent_from_true(sun_deg * kDegree);
-            const double direct =
-                drawn.air().direct_sun_xyz(0.0, seen_rad).y * std::max(0.0, std::sin(seen_rad));
-            const double ratio = (sky + direct) / row.number("E_h_lux");
-            std::printf("%2.0f km, Sun %6.2f deg: %.4g lux, ratio %.2f\n", 1e-3 * visibility_m, sun_deg,
-                        sky + direct, ratio);
+            const double ours = drawn.now().sky_lux() + drawn.still.sun_lux();
+            const double ratio = ours / row.number("E_h_lux");
+            std::printf("%2.0f km, Sun %6.2f deg: %.4g lux, ratio %.2f\n", 1e-3 * visibility_m, sun_deg, ours,
+                        ratio);
             double& largest = sun_deg >= -6.0 ? above : below;
             largest = std::max(largest, std::abs(std::log(ratio)));
         }
@@ -243,13 +190,7 @@ TEST(GroundIlluminance, MoonsIsTheTablesWithinAFactor) {
         if (phase_deg < 7.0) continue;  // the table leaves the opposition surge out
         drawn.scene.moon.direction_enu = at(moon_deg, 0.0);
         drawn.scene.moon.phase_angle_rad = phase_deg * kDegree;
-        const double sky = drawn.sky_lux();
-        const double seen_rad = drawn.light().refraction.apparent_from_true(moon_deg * kDegree);
-        const double scale =
-            static_cast<double>(moon_scale_xyz(drawn.scene, drawn.air().model(), 1.0).y);
-        const double direct =
-            scale * drawn.air().direct_sun_xyz(0.0, seen_rad).y * std::max(0.0, std::sin(seen_rad));
-        const double ratio = (sky + direct) / row.number("E_h_lux");
+        const double ratio = (drawn.now().sky_lux() + drawn.still.moon_lux()) / row.number("E_h_lux");
         // Beyond 120 deg the two magnitude laws part, by 0.14 mag at 150.
         const double bound = phase_deg > 120.0 ? 1.7 : 1.4;
         if (phase_deg <= 120.0) largest = std::max(largest, std::abs(std::log(ratio)));
