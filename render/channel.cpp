@@ -5,6 +5,13 @@
 
 namespace skyig::render {
 
+namespace {
+
+// Of a rig that shows nothing.
+constexpr double kCoarsest_rad = 0.02;
+
+}  // namespace
+
 ImagePlane image_plane(const Frustum& frustum) noexcept {
     return {std::tan(frustum.left_rad), std::tan(frustum.right_rad), std::tan(frustum.bottom_rad),
             std::tan(frustum.top_rad)};
@@ -28,13 +35,26 @@ bool has_area(const Frustum& frustum) noexcept {
 }
 
 double finest_pixel_rad(std::span<const Channel> channels, std::span<const ChannelView> views) noexcept {
-    constexpr double kCoarsest_rad = 0.02;
     double finest_rad = kCoarsest_rad;
     for (std::size_t i = 0; i < std::min(channels.size(), views.size()); ++i) {
         if (has_area(views[i].frustum))
             finest_rad = std::min(finest_rad, pixel_angle_rad(channels[i], views[i].frustum));
     }
     return finest_rad;
+}
+
+double smallest_pixel_sr(std::span<const Channel> channels, std::span<const ChannelView> views) noexcept {
+    double smallest_sr = kCoarsest_rad * kCoarsest_rad;
+    for (std::size_t i = 0; i < std::min(channels.size(), views.size()); ++i) {
+        if (!has_area(views[i].frustum)) continue;
+        const ImagePlane plane = image_plane(views[i].frustum);
+        const double on_axis_sr = (plane.right - plane.left) / channels[i].width_px *
+                                  (plane.top - plane.bottom) / channels[i].height_px;
+        const double x = std::max(std::abs(plane.left), std::abs(plane.right));
+        const double y = std::max(std::abs(plane.bottom), std::abs(plane.top));
+        smallest_sr = std::min(smallest_sr, on_axis_sr * std::pow(1.0 + x * x + y * y, -1.5));
+    }
+    return smallest_sr;
 }
 
 glm::dmat3 body_from_ned(double yaw_rad, double pitch_rad, double roll_rad) noexcept {

@@ -62,6 +62,11 @@ struct ImagePlane {
 [[nodiscard]] double finest_pixel_rad(std::span<const Channel> channels,
                                       std::span<const ChannelView> views) noexcept;
 
+/// Solid angle of the smallest pixel among the same channels, which lies in a corner: 0.02 each way if none
+/// has a view with an area. A point of light has its brightest pixel there.
+[[nodiscard]] double smallest_pixel_sr(std::span<const Channel> channels,
+                                       std::span<const ChannelView> views) noexcept;
+
 /// Rotation that takes north-east-down axes to the body axes (X forward, Y right, Z down) of something yawed,
 /// then pitched, then rolled (CIGI order).
 [[nodiscard]] glm::dmat3 body_from_ned(double yaw_rad, double pitch_rad, double roll_rad) noexcept;

@@ -11,6 +11,7 @@
 #include "render/night/natural_light.h"
 #include "render/night/night_sky.h"
 #include "render/night/star_colour.h"
+#include "render/night/star_scintillation.h"
 #include "render/sky/sea_surface.h"
 #include "render/sky/staleness.h"
 
@@ -23,18 +24,17 @@ constexpr double kDegree = glm::radians(1.0);
 constexpr double kBrightestStar_mag = -1.46;
 // Planets below this stand under the horizon wherever a cockpit may be; from higher up they only cost a pass.
 constexpr double kLowestPlanet_sine = -0.1;
-// A star is seen in part down to 0.94 of the threshold.
-constexpr double kStarMargin_mag = 0.07;
-// Three standard deviations of the light of a star on the horizon at sea level, and what thins them.
-constexpr double kStrongestFlicker = 1.5;
-constexpr double kFlickerHeight_m = 8e3;
 constexpr double kNoStarIsFainter_mag = 99.0;
 constexpr double kNothing_mag = 999.0;
+
+double faintest_seen_mag(double background_cd_m2) {
+    return faintest_visible_mag(background_cd_m2) - 2.5 * std::log10(kFaintestSeen);
+}
 
 // Of the stars and planets that their sky lets through; none: kNothing_mag.
 double brightest_seen_mag(const Scene& scene, const PointBackgrounds& background) {
     const auto seen = [](double magnitude, double background_cd_m2) {
-        return magnitude <= faintest_visible_mag(background_cd_m2) + kStarMargin_mag;
+        return magnitude <= faintest_seen_mag(background_cd_m2);
     };
     double brightest = seen(kBrightestStar_mag, background.darkest_cd_m2) ? kBrightestStar_mag : kNothing_mag;
     for (std::size_t i = 0; i < kPlanetCount; ++i) {
@@ -265,11 +265,10 @@ PointBackgrounds PointBackgrounds::even(double luminance_cd_m2) noexcept {
 void plan_stars(Plan& plan, const Scene& scene, const PointBackgrounds& background,
                 double half_code_mag) noexcept {
     const double brightest_mag = brightest_seen_mag(scene, background);
-    const double limit_mag = faintest_visible_mag(background.darkest_cd_m2) + kStarMargin_mag;
+    const double limit_mag = faintest_seen_mag(background.darkest_cd_m2);
     const bool forced = plan.forced[static_cast<std::size_t>(Pass::kStars)];
     const bool outshone = half_code_mag < brightest_mag;
-    const double flicker =
-        kStrongestFlicker * std::exp(-std::max(scene.eye.height_m, 0.0) / kFlickerHeight_m);
+    const double flicker = night::strongest_flicker(scene.eye.height_m);
     plan.stars.limit_mag = forced ? kNoStarIsFainter_mag : limit_mag;
     plan.stars.seen_only = !forced;
     plan.stars.twinkle_limit_mag = half_code_mag + 2.5 * std::log10(std::max(flicker, 1e-9));

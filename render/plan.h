@@ -53,6 +53,9 @@ struct Held {
     double moon_sky_height_m = 0.0;
 };
 
+/// The eye begins to see a point of light at this part of eye::threshold_lux().
+inline constexpr double kFaintestSeen = 0.94;
+
 /// What of the stars and planets is drawn.
 struct StarPlan {
     /// V magnitude outside the air; fainter ones are left out.

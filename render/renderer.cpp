@@ -171,7 +171,7 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     Impl& m = *impl_;
     m.scene = scene;
     m.pixel_rad = finest_pixel_rad(m.channels, scene.channel_views());
-    m.frame.prepare(scene, m.pixel_rad);
+    m.frame.prepare(scene, m.pixel_rad, smallest_pixel_sr(m.channels, scene.channel_views()));
     m.upload_dome();
     if (m.frame.sea_rows() > 0) m.sea.prepare(m.frame, m.display.dither);
     if (m.frame.light().milky_way.map != nullptr)

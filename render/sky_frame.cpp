@@ -63,13 +63,13 @@ SkyFrame::SkyFrame(const DisplaySettings& display, const Quality& quality, std::
         displays_[i] = before_screen(display, screens[i]);
 }
 
-void SkyFrame::prepare(const Scene& scene, double pixel_rad) {
+void SkyFrame::prepare(const Scene& scene, double pixel_rad, double smallest_pixel_sr) {
     const sky::RefractionRow refraction = tables_.refraction(scene);
     plan_ = make_plan(scene, tables_.held(scene), refraction, quality_);
     tables_.update(scene, plan_);
     light_ = tables_.light(scene, plan_, refraction);
     adapt(scene);
-    tone_screens(scene, pixel_rad);
+    tone_screens(scene, smallest_pixel_sr);
     refresh_milky_way(scene);
     dazzle(scene);
     refresh_dome(pixel_rad);
@@ -104,7 +104,7 @@ void SkyFrame::adapt(const Scene& scene) {
     adaptation_.update(wanted_cd_m2, scene.time_s, tables_.jumped(), eye);
 }
 
-void SkyFrame::tone_screens(const Scene& scene, double pixel_rad) {
+void SkyFrame::tone_screens(const Scene& scene, double smallest_pixel_sr) {
     double darkest_sky = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
         if (eye::probe_directions()[i].above_horizon_rad > 0.0)
@@ -118,7 +118,8 @@ void SkyFrame::tone_screens(const Scene& scene, double pixel_rad) {
         clipped_[screen] = clipped_light(probes_cd_m2_, display_tones_[screen]);
         milky_way_codes_ =
             std::max(milky_way_codes_, milky_way_most_codes(darkest_sky, display_tones_[screen]));
-        faintest_mag = std::max(faintest_mag, half_code_mag(darkest_sky, display_tones_[screen], pixel_rad));
+        faintest_mag =
+            std::max(faintest_mag, half_code_mag(darkest_sky, display_tones_[screen], smallest_pixel_sr));
     }
     if (target_ == Target::kDisplay) {
         tones_ = display_tones_;
@@ -228,8 +229,7 @@ void SkyFrame::refresh_sea(const Scene& scene, double pixel_rad) {
     plan_waves(plan_, scene, waves_, lit);
     const double height_m = sky::height_above_sea_m(scene);
     const int rows = plan_.needs(Pass::kWaves) ? SeaMesh::rows(dome_, waves_, height_m, pixel_rad) : 0;
-    const sky::SlopeVariance variance =
-        sky::roughened(sky::slope_variance(scene.ground, scene.sea.all_waves()));
+    const sky::SlopeVariance& variance = waves_.variance;
     sea_shading_ = {height_m,
                     0.5 / (kEarthRadius_m * height_m),
                     pixel_rad,

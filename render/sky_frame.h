@@ -42,10 +42,12 @@ class SkyFrame {
     SkyFrame(const DisplaySettings& display, const Quality& quality, std::span<const Screen> screens = {},
              Target target = Target::kDisplay);
 
-    /// \param pixel_rad  angle of the finest pixel of the rig: edges are softened over it. Allocates nothing
-    /// in steady state. The first call builds all tables and may throw std::bad_alloc; later ones do not
-    /// throw.
-    void prepare(const Scene& scene, double pixel_rad);
+    /// \param pixel_rad  angle of the finest pixel of the rig: edges are softened over it \param
+    /// smallest_pixel_sr  of the rig, where stars show best. Allocates nothing in steady state. The first
+    /// call builds all tables and may throw std::bad_alloc; later ones do not throw.
+    void prepare(const Scene& scene, double pixel_rad, double smallest_pixel_sr);
+    /// For square pixels of one size.
+    void prepare(const Scene& scene, double pixel_rad) { prepare(scene, pixel_rad, pixel_rad * pixel_rad); }
 
     // All of this is the prepared frame's.
     [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
@@ -101,7 +103,7 @@ class SkyFrame {
   private:
     void refresh_milky_way(const Scene& scene);
     void adapt(const Scene& scene);
-    void tone_screens(const Scene& scene, double pixel_rad);
+    void tone_screens(const Scene& scene, double smallest_pixel_sr);
     [[nodiscard]] double luminance_cd_m2(double elevation_rad, double azimuth_rad) const;
     void dazzle(const Scene& scene);
     void refresh_dome(double pixel_rad);

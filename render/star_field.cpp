@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "render/eye/point_threshold.h"
@@ -15,6 +16,9 @@ namespace skyig::render {
 namespace {
 
 constexpr std::size_t kAirSteps = 192;
+
+// Directions that are off by less are as good as new.
+constexpr double kStep_px = 0.1;
 
 // Over the sine of the airless elevation; steps crowd at the horizon, where air mass and refraction run away.
 float step_of_sine(float sine, float lowest_sine) {
@@ -60,22 +64,28 @@ bool differs(const StarPlan& a, const StarPlan& b) {
 }  // namespace
 
 double half_code_mag(double background_cd_m2, const shaders64::ToneParameters& tone,
-                     double pixel_rad) noexcept {
-    const auto code = [&](double added) {
-        const glm::dvec3 behind = shaders64::display_linear(glm::dvec3{background_cd_m2}, tone);
-        return 255.0 * shaders64::encoded(behind + glm::dvec3{added}, tone).y;
+                     double pixel_sr) noexcept {
+    const glm::dvec3 behind = shaders64::display_linear(glm::dvec3{background_cd_m2}, tone);
+    const auto code = [&](double log2_added) {
+        return 255.0 * shaders64::encoded(behind + glm::dvec3{std::exp2(log2_added)}, tone).y;
     };
-    constexpr double kSmall = 1e-4;
-    const double added = kSmall * 0.5 / (code(kSmall) - code(0.0));
-    const double sigma_rad = kStarSigma_px * pixel_rad;
-    const double lux =
-        added * 2.0 * std::numbers::pi * sigma_rad * sigma_rad / (tone.point_gain * tone.inv_display_max);
+    const double wanted = 255.0 * shaders64::encoded(behind, tone).y + 0.5;
+    double low = -40.0;
+    double high = 20.0;
+    if (code(high) < wanted) return -std::numeric_limits<double>::infinity();
+    while (high - low > 1e-3) {
+        const double middle = 0.5 * (low + high);
+        (code(middle) < wanted ? low : high) = middle;
+    }
+    const double lux = std::exp2(high) * 2.0 * std::numbers::pi * kStarSigma_px * kStarSigma_px * pixel_sr /
+                       (tone.point_gain * tone.inv_display_max);
     return -2.5 * std::log10(lux / night::star_illuminance_lux(0.0));
 }
 
 float seen_share(float illuminance_lux, float background_cd_m2) noexcept {
     const auto threshold = static_cast<float>(eye::threshold_lux(static_cast<double>(background_cd_m2)));
-    const float t = std::clamp((illuminance_lux / threshold - 0.94F) / 0.12F, 0.0F, 1.0F);
+    constexpr auto kFrom = static_cast<float>(kFaintestSeen);
+    const float t = std::clamp((illuminance_lux / threshold - kFrom) / (2.0F * (1.0F - kFrom)), 0.0F, 1.0F);
     return t * t * (3.0F - 2.0F * t);
 }
 
@@ -113,7 +123,8 @@ StarField::Made StarField::made_of(const Scene& scene, const SkyFrame& frame) no
               .sun_scale = light.sun.scale_xyz,
               .moon_scale = light.moon.scale_xyz,
               .height_m = scene.eye.height_m,
-              .air = scene.air,
+              .horizon_lift_rad =
+                  light.refraction.horizon_elevation_rad() - light.refraction.setting_elevation_rad(),
               .stars = scene.stars,
               .plan = frame.plan().stars,
               .planets = scene.planets,
@@ -125,17 +136,18 @@ StarField::Made StarField::made_of(const Scene& scene, const SkyFrame& frame) no
     return made;
 }
 
-bool StarField::light_is_stale(const Made& now) const noexcept {
+bool StarField::light_is_stale(const Made& now, double pixel_rad) const noexcept {
     const Made& held = made_;
     return !held.valid || now.tables != held.tables || now.air_in_use != held.air_in_use ||
            moved(now.sun_scale, held.sun_scale) || moved(now.moon_scale, held.moon_scale) ||
-           sky::height_is_stale(now.height_m, held.height_m) || !(now.air == held.air);
+           sky::height_is_stale(now.height_m, held.height_m) ||
+           std::abs(now.horizon_lift_rad - held.horizon_lift_rad) > kStep_px * pixel_rad;
 }
 
 bool StarField::is_stale(const Made& now, double pixel_rad) const noexcept {
     const Made& held = made_;
-    const double step_rad = 0.1 * pixel_rad;
-    if (light_is_stale(now) || differs(now.plan, held.plan) ||
+    const double step_rad = kStep_px * pixel_rad;
+    if (light_is_stale(now, pixel_rad) || differs(now.plan, held.plan) ||
         turned(now.stars.enu_from_gcrs, held.stars.enu_from_gcrs, step_rad))
         return true;
     constexpr double kYears = 0.01;
@@ -254,12 +266,12 @@ void StarField::flicker(double time_s) noexcept {
     }
 }
 
-bool StarField::update(const Scene& scene, const SkyFrame& frame, double pixel_rad) {
+std::size_t StarField::update(const Scene& scene, const SkyFrame& frame, double pixel_rad) {
     const Made now = made_of(scene, frame);
     const bool stale = is_stale(now, pixel_rad);
     if (stale) {
         constexpr double kHalfDegree = 0.0087;
-        const bool new_light = light_is_stale(now);
+        const bool new_light = light_is_stale(now, pixel_rad);
         if (new_light) tabulate_air(frame, scene.eye.height_m);
         if (new_light || turned(now.stars.enu_from_gcrs, backgrounds_turn_, kHalfDegree)) {
             ++backgrounds_due_;
@@ -271,7 +283,8 @@ bool StarField::update(const Scene& scene, const SkyFrame& frame, double pixel_r
     enu_from_update_ = scene.stars.enu_from_gcrs * glm::transpose(made_.stars.enu_from_gcrs);
     const bool flickers = frame.plan().stars.twinkle && twinkling_ > 0;
     if (flickers) flicker(scene.time_s);
-    return stale || flickers;
+    if (stale) return count_;
+    return flickers ? twinkling_ : 0;
 }
 
 }  // namespace skyig::render

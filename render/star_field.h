@@ -26,11 +26,13 @@ struct StarVertex {
 inline constexpr double kStarSigma_px = 0.7;
 
 /// V magnitude of a star that, outside the air, adds half a display code to its brightest pixel before a
-/// background of this luminance; fainter ones change no picture.
+/// background of this luminance; fainter ones change no picture. Where the background is shown darker than
+/// the screen's own black, the star has that to pass first; minus infinity where the screen can add none.
 [[nodiscard]] double half_code_mag(double background_cd_m2, const shaders64::ToneParameters& tone,
-                                   double pixel_rad) noexcept;
+                                   double pixel_sr) noexcept;
 
-/// Part of a point that the eye sees: 0 below 0.94 of the threshold before its background, 1 above 1.06.
+/// Part of a point that the eye sees: 0 below kFaintestSeen of the threshold before its background, 1 as far
+/// above it.
 [[nodiscard]] float seen_share(float illuminance_lux, float background_cd_m2) noexcept;
 
 class StarField {
@@ -40,11 +42,11 @@ class StarField {
 
     /// Follows the frame. Light, air and refraction of every star are worked out anew only when something has
     /// changed by what could show: the sky by 0.5 %, directions by a tenth of a pixel (until then one
-    /// rotation serves all stars: enu_from_update()), the eye's height by 20 m. Annual aberration of stars:
-    /// direction + velocity / c, normalised (second order neglected: 0.001 arcsec). Refraction is
-    /// interpolated: within 3 arcsec of the frame's row up to FL600. \param pixel_rad  the finest pixel of
-    /// the rig \return whether stars() has changed
-    bool update(const Scene& scene, const SkyFrame& frame, double pixel_rad);
+    /// rotation serves all stars: enu_from_update()), the eye's height by sky::height_is_stale(). Annual
+    /// aberration of stars: direction + velocity / c, normalised (second order neglected: 0.001 arcsec).
+    /// Refraction is interpolated: within 3 arcsec of the frame's row up to FL600. \param pixel_rad  the
+    /// finest pixel of the rig \return how many of stars(), from the first on, have changed
+    std::size_t update(const Scene& scene, const SkyFrame& frame, double pixel_rad);
 
     [[nodiscard]] std::span<const StarVertex> stars() const noexcept { return {stars_.data(), count_}; }
     /// What has turned all stars since their directions were written.
@@ -85,7 +87,7 @@ class StarField {
         glm::vec3 sun_scale{0.0F};
         glm::vec3 moon_scale{0.0F};
         double height_m = 0.0;
-        render::Air air;
+        double horizon_lift_rad = 0.0;  // by refraction, of what is seen on the horizon
         Stars stars;
         StarPlan plan;
         std::array<Planet, kPlanetCount> planets{};
@@ -94,7 +96,7 @@ class StarField {
         double moon_radius_rad = 0.0;  // 0: switched off
     };
 
-    [[nodiscard]] bool light_is_stale(const Made& now) const noexcept;
+    [[nodiscard]] bool light_is_stale(const Made& now, double pixel_rad) const noexcept;
     [[nodiscard]] bool is_stale(const Made& now, double pixel_rad) const noexcept;
     [[nodiscard]] const glm::vec3& background(const glm::vec3& seen_enu, std::uint32_t source,
                                               const Frame& frame) noexcept;

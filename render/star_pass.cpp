@@ -15,8 +15,8 @@ StarPass::StarPass()
       peak_gain_(program_.uniform("u_peak_gain")) {}
 
 void StarPass::prepare(const Scene& scene, const SkyFrame& frame, double pixel_rad) {
-    if (!field_.update(scene, frame, pixel_rad)) return;
-    const auto stars = field_.stars();
+    const std::size_t changed = field_.update(scene, frame, pixel_rad);
+    const auto stars = field_.stars().first(changed);
     mesh_.update({reinterpret_cast<const float*>(stars.data()), stars.size_bytes() / sizeof(float)});
 }
 

@@ -43,9 +43,10 @@ StillPlan plan_still(const PlanOptions& options) {
     const render::Screens screens = render::screens_of(channels, display);
     render::SkyFrame frame(display, out.quality, screens.distinct);
     const double pixel_rad = render::finest_pixel_rad(channels, still.scene.channel_views());
-    frame.prepare(still.scene, pixel_rad);
+    const double smallest_sr = render::smallest_pixel_sr(channels, still.scene.channel_views());
+    frame.prepare(still.scene, pixel_rad, smallest_sr);
     out.first = frame.plan();
-    frame.prepare(still.scene, pixel_rad);
+    frame.prepare(still.scene, pixel_rad, smallest_sr);
     out.next = frame.plan();
     out.adaptation_cd_m2 = frame.adaptation_cd_m2();
     for (std::size_t i = 0; i < screens.distinct.size(); ++i)

@@ -41,6 +41,11 @@ double scintillation_rms(double air_mass, double eye_height_m) noexcept {
     return whole * kFramePart * std::exp(-std::max(eye_height_m, 0.0) / kScaleHeight_m);
 }
 
+double strongest_flicker(double eye_height_m) noexcept {
+    const double rms = scintillation_rms(air_mass(0.0), eye_height_m);
+    return std::exp(3.0 * rms - 0.5 * rms * rms) - 1.0;
+}
+
 double air_mass(double apparent_elevation_rad) noexcept {
     constexpr double kDegree = 0.017453292519943295;
     const double elevation_rad = std::max(apparent_elevation_rad, 0.0);

@@ -12,6 +12,10 @@ namespace skyig::render::night {
 /// \param air_mass  X of the star, 1 at the zenith of an eye at sea level; \param eye_height_m  h
 [[nodiscard]] double scintillation_rms(double air_mass, double eye_height_m) noexcept;
 
+/// What three standard deviations add to the light of a star on the horizon, parts of it: from this eye none
+/// flickers more. \see scintillation()
+[[nodiscard]] double strongest_flicker(double eye_height_m) noexcept;
+
 /// What a planet's disc leaves of a point's flicker.
 inline constexpr double kPlanetScintillation = 0.2;
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/shaders/shared.h"
+
 namespace skyig::render::sky {
 namespace {
 
@@ -92,8 +94,8 @@ SlopeVariance slope_variance(const Ground& ground, std::span<const Wave> waves) 
 }
 
 SlopeVariance roughened(const SlopeVariance& variance) noexcept {
-    constexpr double kLeast = 3e-4;
-    return {variance.east_east + kLeast, variance.north_north + kLeast, variance.east_north};
+    const double least = shaders64::least_slope_variance();
+    return {variance.east_east + least, variance.north_north + least, variance.east_north};
 }
 
 SeaSurface::SeaSurface(const SlopeVariance& variance) noexcept : variance_(roughened(variance)) {

@@ -45,14 +45,34 @@ double turns_rad(const Wave& wave, double time_s) {
     return 2.0 * kPi * std::remainder(time_s / wave.period_s, 1.0);
 }
 
+glm::dvec2 told_way(const Wave& wave) {
+    return {std::sin(wave.direction_rad), std::cos(wave.direction_rad)};
+}
+
+// What the phase gains along it at the eye, where the anchor's parallels close; not a unit vector.
+glm::dvec2 drawn_way(const Wave& wave, const SeaAnchor& anchor) {
+    const glm::dvec2 way = told_way(wave);
+    return {way.x, way.y + way.x * anchor.closing};
+}
+
 shaders64::WaveTrain train_of(const Wave& wave, const SeaAnchor& anchor, double time_s) {
     const double number = 2.0 * kPi / wave.length_m;
-    const glm::dvec2 way{std::sin(wave.direction_rad), std::cos(wave.direction_rad)};
-    const glm::dvec2 on_earth = number * glm::dvec2{way.x, way.y + way.x * anchor.closing};
-    const double phase = number * glm::dot(way, anchor.eye_m) - turns_rad(wave, time_s) + wave.phase_rad;
+    const glm::dvec2 way = drawn_way(wave, anchor);
+    const double phase =
+        number * glm::dot(told_way(wave), anchor.eye_m) - turns_rad(wave, time_s) + wave.phase_rad;
     const double skew = skew_of(wave.leading_rad);
-    return {on_earth, std::remainder(phase, 2.0 * kPi),
-            glm::normalize(on_earth) * (wave_slope(wave) / std::hypot(1.0, skew)), skew};
+    return {number * way, std::remainder(phase, 2.0 * kPi),
+            glm::normalize(way) * (wave_slope(wave) / std::hypot(1.0, skew)), skew};
+}
+
+// Along the ways that trains are drawn: what a pixel resolves of them must not exceed it in any direction.
+SlopeVariance drawn_variance(const Scene& scene, const SeaAnchor& anchor) {
+    std::array<Wave, kMaxWaves> waves = scene.sea.waves;
+    for (Wave& wave : waves) {
+        const glm::dvec2 way = drawn_way(wave, anchor);
+        wave.direction_rad = std::atan2(way.x, way.y);
+    }
+    return roughened(slope_variance(scene.ground, {waves.data(), scene.sea.wave_count}));
 }
 
 }  // namespace
@@ -77,21 +97,25 @@ double least_depression_sine(double height_m, double number_rad_m, double pixel_
 }
 
 SeaWaves sea_waves(const Scene& scene, double pixel_rad) noexcept {
-    const double height_m = height_above_sea_m(scene);
     std::array<const Wave*, kMaxWaves> told{};
-    std::size_t resolved = 0;
+    std::size_t sound = 0;
     for (const Wave& wave : scene.sea.all_waves()) {
-        if (is_sound(wave) && least_depression_sine(height_m, 2.0 * kPi / wave.length_m, pixel_rad) < 1.0)
-            told[resolved++] = &wave;
+        if (is_sound(wave)) told[sound++] = &wave;
     }
     const auto begin = told.begin();
-    const auto end = begin + static_cast<std::ptrdiff_t>(resolved);
+    const auto end = begin + static_cast<std::ptrdiff_t>(sound);
     std::sort(begin, end, [](const Wave* a, const Wave* b) { return wave_slope(*a) > wave_slope(*b); });
-    SeaWaves waves;
-    waves.count = std::min(resolved, SeaWaves::kMost);
-    const auto kept = begin + static_cast<std::ptrdiff_t>(waves.count);
+    // Chosen before the height has a say: a wave that took an unresolved one's place would pop up whole.
+    auto kept = begin + static_cast<std::ptrdiff_t>(std::min(sound, SeaWaves::kMost));
+    const double height_m = height_above_sea_m(scene);
+    kept = std::remove_if(begin, kept, [&](const Wave* wave) {
+        return least_depression_sine(height_m, 2.0 * kPi / wave->length_m, pixel_rad) >= 1.0;
+    });
     std::sort(begin, kept, [](const Wave* a, const Wave* b) { return a->length_m > b->length_m; });
     const SeaAnchor anchor = sea_anchor(scene.eye);
+    SeaWaves waves;
+    waves.count = static_cast<std::size_t>(kept - begin);
+    waves.variance = drawn_variance(scene, anchor);
     std::transform(begin, kept, waves.trains.begin(),
                    [&](const Wave* wave) { return train_of(*wave, anchor, scene.time_s); });
     return waves;

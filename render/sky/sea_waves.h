@@ -9,6 +9,7 @@
 
 #include "render/scene.h"
 #include "render/shaders/shared.h"
+#include "render/sky/sea_surface.h"
 
 namespace skyig::render::sky {
 
@@ -27,17 +28,20 @@ struct SeaWaves {
 
     std::array<shaders64::WaveTrain, kMost> trains{};
     std::size_t count = 0;
+    /// Of wind and all told waves, along the ways that trains are drawn, roughened(): less what is resolved
+    /// of the trains, it is the roughness that is left.
+    SlopeVariance variance;
 
     [[nodiscard]] std::span<const shaders64::WaveTrain> all() const noexcept {
         return {trains.data(), count};
     }
 };
 
-/// The steepest trains that pixels of this angle resolve straight below the eye, the longest first; all
-/// others only roughen the sea. A crest stands at the anchor at scene time 0 (Wave::phase_rad 0) and runs a
-/// wave's length in its period. Trains follow the anchor's own axes, so that they lie still on the Earth
-/// under a moving eye: their way is off the told one by at most 2.5 deg. Wave::leading_rad counts up to 1
-/// either way.
+/// Of the four steepest told waves those that pixels of this angle resolve straight below the eye, the
+/// longest first; all others only roughen the sea, from whatever height. A crest stands at the anchor at
+/// scene time 0 (Wave::phase_rad 0) and runs a wave's length in its period. Trains follow the anchor's own
+/// axes, so that they lie still on the Earth under a moving eye: their way is off the told one by at most 2.5
+/// deg. Wave::leading_rad counts up to 1 either way.
 [[nodiscard]] SeaWaves sea_waves(const Scene& scene, double pixel_rad) noexcept;
 
 /// Of the eye above the sea, at least half a metre.

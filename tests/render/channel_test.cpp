@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "tests/render/scenes.h"
 
@@ -84,6 +87,27 @@ TEST(ViewDirection, ExtremeFrustaStayFinite) {
         EXPECT_NEAR(glm::length(corner), 1.0, 1e-14);
         EXPECT_GT(pixel_angle_rad(channel, frustum), 0.0);
     }
+}
+
+TEST(SmallestPixel, LiesInTheFarthestCornerOfTheFinestChannel) {
+    const std::vector<Channel> channels{{"wide", 64, 48}, {"off", 640, 480}, {"dark", 4000, 4000}};
+    const std::vector<ChannelView> views{{tests::symmetric_frustum(60.0, 64, 48)},
+                                         {Frustum{-10 * kDegree, 70 * kDegree, -60 * kDegree, 5 * kDegree}},
+                                         {Frustum{}}};
+    // Area of the spherical quadrangle that its corners span, small enough to be flat.
+    const auto pixel_sr = [&](std::size_t i, double x, double y) {
+        const auto corner = [&](double dx, double dy) {
+            return view_direction(channels[i], views[i].frustum, x + dx, y + dy);
+        };
+        return 0.5 * glm::length(glm::cross(corner(1, 1) - corner(0, 0), corner(0, 1) - corner(1, 0)));
+    };
+    const double right_low = pixel_sr(1, 639, 0);
+    for (const auto& [x, y] : {std::pair{0, 0}, std::pair{0, 479}, std::pair{639, 479}, std::pair{320, 240}})
+        EXPECT_GT(pixel_sr(1, x, y), right_low);
+    EXPECT_NEAR(smallest_pixel_sr(channels, views) / right_low, 1.0, 0.02);
+    const std::span<const Channel> wide{channels.data(), 1};
+    EXPECT_NEAR(smallest_pixel_sr(wide, views) / pixel_sr(0, 0, 0), 1.0, 0.1);
+    EXPECT_EQ(smallest_pixel_sr({}, views), 4e-4);
 }
 
 }  // namespace

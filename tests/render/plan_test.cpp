@@ -2,11 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
 
 #include "render/dome_bend.h"
 #include "render/eye/tone_curve.h"
 #include "render/geometry.h"
+#include "render/night/star_colour.h"
+#include "render/night/star_scintillation.h"
+#include "render/star_field.h"
 #include "tests/render/scenes.h"
 
 namespace skyig::render {
@@ -87,7 +94,8 @@ TEST(Plan, StarsTwinkleWhereItShowsAndIsAskedFor) {
     plan_stars(plan, scene, PointBackgrounds::even(2e-4), kHalfCode_mag);
     EXPECT_TRUE(plan.stars.twinkle);
     EXPECT_EQ(plan[Pass::kStars].reason, "some stars outshine the sky, and twinkle");
-    EXPECT_NEAR(plan.stars.twinkle_limit_mag, kHalfCode_mag + 2.5 * std::log10(1.5 * std::exp(-0.125)), 1e-9);
+    EXPECT_NEAR(plan.stars.twinkle_limit_mag, kHalfCode_mag + 2.5 * std::log10(night::strongest_flicker(1e3)),
+                1e-9);
     // Nothing is left of the air.
     scene.eye.height_m = 200e3;
     plan_stars(plan, scene, PointBackgrounds::even(2e-4), kHalfCode_mag);
@@ -192,6 +200,97 @@ TEST(Plan, StarsThatAddLessThanHalfACodeAreLeftOut) {
     EXPECT_TRUE(plan.needs(Pass::kStars));
     plan_stars(plan, scene, PointBackgrounds::even(2000.0), -4.6);
     EXPECT_FALSE(plan.needs(Pass::kStars));
+}
+
+TEST(HalfCode, IsThatOfTheScreensCurveAlsoBelowItsBlack) {
+    constexpr double kPixel_sr = 1e-6;
+    constexpr double kSky_cd_m2 = 1e-5;
+    for (const double reflected_cd_m2 : {0.0, 0.2, 1.0, 10.0}) {
+        DisplaySettings display;
+        display.max_luminance_cd_m2 = 100.0;
+        display.reflected_cd_m2 = reflected_cd_m2;
+        const shaders64::ToneParameters tone = eye::tone_parameters(display, 2e-4);
+        const double sky = shaders64::display_linear(glm::dvec3{kSky_cd_m2}, tone).y;
+        // sRGB: the codes about the sky's own, on the straight part of the curve.
+        const double black = reflected_cd_m2 / 100.0;
+        const double added = std::max(black, sky) - sky + 0.5 / 255.0 / 12.92;
+        ASSERT_LT(std::max(sky - black, 0.0) + 0.5 / 255.0 / 12.92, 0.0031308);
+        const double lux = added * 100.0 / tone.point_gain * 2.0 * std::numbers::pi * 0.49 * kPixel_sr;
+        const double expected_mag = -2.5 * std::log10(lux / night::star_illuminance_lux(0.0));
+        const double mag = half_code_mag(kSky_cd_m2, tone, kPixel_sr);
+        std::printf("%4.1f cd/m2 reflected: half a code at %.2f mag\n", reflected_cd_m2, mag);
+        EXPECT_NEAR(mag, expected_mag, 2e-3) << reflected_cd_m2;
+    }
+}
+
+TEST(HalfCode, NoStarIsBrighterThanWhite) {
+    shaders64::ToneParameters tone = eye::tone_parameters({}, 1e3);
+    tone.shoulder = 1.0;
+    EXPECT_EQ(half_code_mag(1e9, tone, 1e-6), -INFINITY);
+    const Scene scene = make_scene(30, 180, 10, 0, 1000);
+    Plan plan = plan_of(scene, fresh(scene));
+    plan_stars(plan, scene, PointBackgrounds::even(2e-4), -INFINITY);
+    EXPECT_FALSE(plan.needs(Pass::kStars));
+}
+
+TEST(StarField, WeatherInMotionIsNoReasonToTurnAllStars) {
+    constexpr double kPixel_rad = 8e-4;
+    Scene scene = make_scene(-30.0, 180.0, -30.0, 0.0, 1000.0);
+    SkyFrame frame({}, {});
+    StarField field;
+    const auto changed = [&] {
+        scene.time_s += 1.0 / 60.0;
+        frame.prepare(scene, kPixel_rad);
+        return field.update(scene, frame, kPixel_rad);
+    };
+    ASSERT_GT(changed(), 1000U);
+    EXPECT_EQ(changed(), 0U);
+    int rebuilt = 0;
+    for (int i = 0; i < 60; ++i) {
+        scene.air.visibility_m *= 0.9999;
+        scene.air.humidity_pct += 0.01;
+        scene.air.temperature_c += 1e-4;
+        scene.air.pressure_hpa -= 1e-3;
+        rebuilt += changed() > 0 ? 1 : 0;
+    }
+    std::printf("turned anew in %d of 60 frames\n", rebuilt);
+    EXPECT_LE(rebuilt, 6);
+    // The horizon is lifted by half a degree and more: a hundredth of it shows.
+    scene.air.pressure_hpa -= 10.0;
+    EXPECT_GT(changed(), 1000U);
+    const double horizon_rad = 1.5 * tests::kDegree;
+    const sky::RefractionRow row = tests::refraction_of(scene);
+    const double lowest_rad =
+        std::asin(static_cast<double>(std::min_element(field.stars().begin(), field.stars().end(),
+                                                       [](const StarVertex& a, const StarVertex& b) {
+                                                           return a.direction_enu.z < b.direction_enu.z;
+                                                       })
+                                          ->direction_enu.z));
+    EXPECT_GT(lowest_rad, row.horizon_elevation_rad() - 1e-3);
+    EXPECT_LT(lowest_rad, horizon_rad);
+}
+
+TEST(StarField, OnlyStarsThatTwinkleChangeWithTime) {
+    constexpr double kPixel_rad = 8e-4;
+    constexpr double kPixel_sr = 1e-3;  // too coarse for faint ones to show
+    Scene scene = make_scene(-30.0, 180.0, -30.0, 0.0, 0.0);
+    scene.sky.star_scintillation = true;
+    SkyFrame frame({}, {});
+    StarField field;
+    frame.prepare(scene, kPixel_rad, kPixel_sr);
+    const std::size_t all = field.update(scene, frame, kPixel_rad);
+    ASSERT_EQ(all, field.stars().size());
+    const std::vector<StarVertex> before(field.stars().begin(), field.stars().end());
+    scene.time_s += 1.0 / 60.0;
+    frame.prepare(scene, kPixel_rad, kPixel_sr);
+    const std::size_t twinkling = field.update(scene, frame, kPixel_rad);
+    std::printf("%zu of %zu stars twinkle\n", twinkling, all);
+    EXPECT_GT(twinkling, 10U);
+    EXPECT_LT(twinkling, all);
+    ASSERT_EQ(field.stars().size(), all);
+    EXPECT_NE(field.stars()[0].illuminance_lux, before[0].illuminance_lux);
+    for (std::size_t i = twinkling; i < all; ++i)
+        ASSERT_EQ(field.stars()[i].illuminance_lux, before[i].illuminance_lux) << i;
 }
 
 TEST(Plan, ForcedPassesRunAndSaySo) {

@@ -116,5 +116,23 @@ TEST_F(Waves, FadeIntoTheDomeWithoutAnEdge) {
     EXPECT_LE(worst, 1.0);
 }
 
+TEST_F(Waves, SteepOnesInACalmAreNoHolesInTheSea) {
+    Scene scene = looking_down(make_scene(40.0, 90.0, -30.0, 40.0, 20.0), 90.0, -15.0);
+    scene.eye.latitude_deg = 60.0;
+    scene.eye.longitude_deg = 2.4;
+    scene.ground.kind = Ground::Kind::kSea;
+    scene.sea.wave_count = 1;
+    scene.sea.waves[0] = {
+        .height_m = 2.8, .length_m = 20.0, .period_s = 3.6, .direction_rad = 90.0 * kDegree};
+    const Picture picture = draw(channels_, scene, undithered())[0];
+    int black = 0;
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x)
+            black += difference(picture.at(x, y), {}) == 0 ? 1 : 0;
+    }
+    std::printf("%d black pixels\n", black);
+    EXPECT_EQ(black, 0);
+}
+
 }  // namespace
 }  // namespace skyig::render

@@ -7,6 +7,8 @@
 
 #include "render/geometry.h"
 #include "render/night/star_catalogue.h"
+#include "render/sky_frame.h"
+#include "render/star_field.h"
 #include "tests/render/gl_fixture.h"
 
 namespace skyig::render {
@@ -177,6 +179,68 @@ TEST_F(StarPass, StarsFadeThroughDuskAndAreGoneByDay) {
         last = drawn;
     }
     EXPECT_EQ(last, 0U);
+}
+
+int changed_codes(const Picture& a, const Picture& b) {
+    int changed = 0;
+    for (int y = 0; y < a.height_px; ++y) {
+        for (int x = 0; x < a.width_px; ++x)
+            changed += difference(a.at(x, y), b.at(x, y)) > 0 ? 1 : 0;
+    }
+    return changed;
+}
+
+TEST_F(StarPass, ScreensThatReflectMoreThanTheDarkSkyShowStarsOverIt) {
+    DisplaySettings display = undithered();
+    display.max_luminance_cd_m2 = 100.0;
+    display.reflected_cd_m2 = 3.0;
+    Scene scene = night_towards(brightest_direction());
+    Renderer renderer({{"only", 128, 128}}, display);
+    const Picture with = draw(renderer, scene)[0];
+    EXPECT_TRUE(renderer.prepare(scene).plan.needs(Pass::kStars));
+    scene.stars.enabled = false;
+    const Picture without = draw(renderer, scene)[0];
+    std::printf("%d pixels show a star\n", changed_codes(with, without));
+    EXPECT_EQ(without.at(3, 3).g, 0) << "the sky is below the screen's black";
+    EXPECT_GT(changed_codes(with, without), 4);
+}
+
+TEST_F(StarPass, PlanetThatShowsInTheCornerAloneIsDrawn) {
+    const Channel channel{"only", 64, 64};
+    Scene scene = make_scene(3.0, 0.0, -40.0, 90.0, 0.0);
+    const Frustum frustum = symmetric_frustum(65.0, channel.width_px, channel.height_px);
+    add_view(scene, frustum, view_from_enu(180.0, 5.0, 0.0));
+    const glm::dvec3 corner =
+        glm::transpose(scene.views[0].view_from_enu) * view_direction(channel, frustum, 62.5, 62.5);
+    SkyFrame frame(undithered(), {});
+    const double axis_rad = pixel_angle_rad(channel, frustum);
+    frame.prepare(scene, axis_rad);
+    const Horizontal at = horizontal_of(corner);
+    const auto sky_cd_m2 = static_cast<double>(
+        shaders32::luminance_709(frame.light().rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kSky)));
+    // As bright as it takes to show in the corner, and not on the axis: the sky there is no darker.
+    const double on_axis_mag = half_code_mag(sky_cd_m2, frame.tone(), axis_rad * axis_rad);
+    const double in_corner_mag =
+        half_code_mag(sky_cd_m2, frame.tone(), smallest_pixel_sr({&channel, 1}, scene.channel_views()));
+    std::printf("half a code: %.2f mag on the axis, %.2f in the corner\n", on_axis_mag, in_corner_mag);
+    EXPECT_GT(in_corner_mag - on_axis_mag, 2.0);
+    Quality forced;
+    forced.forced.set(static_cast<std::size_t>(Pass::kStars));
+    Renderer planned({channel}, undithered());
+    Renderer all({channel}, undithered(), forced);
+    int shown = 0;
+    for (const double part : {-0.3, 0.1, 0.4, 0.7, 1.0}) {
+        const double mag = std::lerp(on_axis_mag, in_corner_mag, part);
+        scene.planets[1] = {corner, mag, 0.8};
+        const Picture picture = draw(planned, scene)[0];
+        EXPECT_EQ(changed_codes(picture, draw(all, scene)[0]), 0) << mag;
+        scene.stars.enabled = false;
+        const int changed = changed_codes(picture, draw(planned, scene)[0]);
+        scene.stars.enabled = true;
+        std::printf("%.2f mag: %d pixels\n", mag, changed);
+        shown += changed > 0 ? 1 : 0;
+    }
+    EXPECT_GE(shown, 3);
 }
 
 }  // namespace

@@ -70,11 +70,18 @@ SKYIG_INLINE rvec2 mirroring_slope(rvec3 to_eye, rvec3 to_source) {
     return rvec2(to_eye.x + to_source.x, to_eye.y + to_source.y) / -up;
 }
 
+// Roughness that every surface keeps, each way: a slope of 1 deg.
+SKYIG_INLINE real least_slope_variance() { return real(3e-4); }
+
+// Finite for any variance, also one that is none for want of digits.
 SKYIG_INLINE real slope_density(rvec2 slope, rvec3 variance) {
-    real determinant = variance.x * variance.y - variance.z * variance.z;
-    real exponent = (variance.y * slope.x * slope.x + variance.x * slope.y * slope.y -
+    real least = least_slope_variance();
+    real east = max(variance.x, least);
+    real north = max(variance.y, least);
+    real determinant = max(east * north - variance.z * variance.z, least * least);
+    real exponent = (north * slope.x * slope.x + east * slope.y * slope.y -
                      real(2.0) * variance.z * slope.x * slope.y) / determinant;
-    return exp(real(-0.5) * exponent) * real(0.1591549431) / sqrt(determinant);
+    return exp(real(-0.5) * max(exponent, real(0.0))) * real(0.1591549431) / sqrt(determinant);
 }
 
 // `variance` is that of all slopes. No water is darker than a thirtieth of its smooth part.

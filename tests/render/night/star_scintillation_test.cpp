@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -64,6 +65,26 @@ TEST(Scintillation, GrowsTowardsTheHorizonAndIsGoneHighUp) {
     EXPECT_NEAR(scintillation_rms(2.0, 0.0), 0.08 * 3.364 * 0.82, 2e-3);
     EXPECT_NEAR(scintillation_rms(38.0, 0.0), 0.5 * 0.82, 5e-3);
     EXPECT_NEAR(scintillation_rms(1.0, 8000.0) / scintillation_rms(1.0, 0.0), std::exp(-1.0), 1e-9);
+}
+
+TEST(Scintillation, HardlyEverAddsMoreThanItsStrongest) {
+    for (const double height_m : {0.0, 3e3, 20e3}) {
+        const auto rms = static_cast<float>(scintillation_rms(air_mass(0.0), height_m));
+        const auto strongest = static_cast<float>(strongest_flicker(height_m));
+        float largest = 0.0F;
+        int beyond = 0;
+        constexpr int kTimes = 50000;
+        for (int i = 0; i < kTimes; ++i) {
+            const float added = scintillation(5, i / 30.0, rms) - 1.0F;
+            largest = std::max(largest, added);
+            beyond += added > strongest ? 1 : 0;
+        }
+        std::printf("%5.0f m: strongest %.3f, seen %.3f, beyond it %d of %d\n", height_m,
+                    static_cast<double>(strongest), static_cast<double>(largest), beyond, kTimes);
+        EXPECT_GT(largest, 0.9F * strongest);
+        EXPECT_LT(beyond, kTimes / 500);
+    }
+    EXPECT_LT(strongest_flicker(300e3), 1e-15);
 }
 
 TEST(AirMass, IsKastenAndYoungs) {

@@ -131,6 +131,83 @@ TEST(SeaWaves, EndWherePixelsDoNotResolveThem) {
     }
 }
 
+TEST(SeaWaves, NonePopsUpWithHeightHoweverManyAreTold) {
+    Scene scene = choppy(30.0);
+    const Wave steep{.height_m = 0.2, .length_m = 4.0, .period_s = 1.6, .direction_rad = 2.4};
+    const Wave gentle{.height_m = 2.5, .length_m = 200.0, .period_s = 11.3, .direction_rad = 0.2};
+    for (const Wave& wave : {gentle, steep})
+        scene.sea.waves[scene.sea.wave_count++] = wave;
+    const auto resolved_below_the_eye = [&](double height_m) {
+        scene.eye.height_m = height_m;
+        glm::dvec3 sum{0.0};
+        for (const WaveTrain& train : sea_waves(scene, kPixel_rad).all()) {
+            const double share = shaders64::resolved_share(train.number_rad_m, height_m * kPixel_rad);
+            const glm::dvec2 rise = share * train.rise;
+            sum += glm::dvec3{rise.x * rise.x, rise.y * rise.y, rise.x * rise.y};
+        }
+        return sum;
+    };
+    glm::dvec3 last = resolved_below_the_eye(10.0);
+    const double all = last.x + last.y;
+    double worst = 0.0;
+    for (double height_m = 10.0; height_m < 200e3; height_m *= 1.005) {
+        const glm::dvec3 now = resolved_below_the_eye(height_m);
+        worst = std::max(worst, glm::length(now - last) / all);
+        last = now;
+    }
+    std::printf("half a percent of height: %.4f of the drawn slopes come or go at most\n", worst);
+    EXPECT_GT(all, 0.0);
+    EXPECT_LT(worst, 0.02);
+}
+
+TEST(SeaWaves, LeaveRoughnessWhereverTheyStandAndWhateverTheWind) {
+    Scene scene;
+    scene.ground.kind = Ground::Kind::kSea;
+    scene.sea.wave_count = 1;
+    double least = 1.0;
+    double closing = 0.0;
+    for (const double wind_m_s : {0.0, 0.5, 8.0}) {
+        scene.ground.wind_m_s = wind_m_s;
+        for (double latitude_deg = -85.0; latitude_deg <= 85.0; latitude_deg += 5.0) {
+            for (double longitude_deg = -2.5; longitude_deg <= 2.5; longitude_deg += 0.25) {
+                scene.eye = {latitude_deg, longitude_deg, 20.0};
+                closing = std::max(closing, std::abs(sea_anchor(scene.eye).closing));
+                for (const double direction_deg : {0.0, 45.0, 90.0, 135.0, 200.0}) {
+                    scene.sea.waves[0] = {.height_m = 2.84,
+                                          .length_m = 20.0,
+                                          .period_s = 3.6,
+                                          .direction_rad = direction_deg * kDegree,
+                                          .leading_rad = 0.4};
+                    const SeaWaves waves = sea_waves(scene, kPixel_rad);
+                    const ResolvedSlope all =
+                        shaders64::with_train(ResolvedSlope{}, waves.trains[0], {}, 0.0);
+                    const double e = waves.variance.east_east - all.variance.x;
+                    const double n = waves.variance.north_north - all.variance.y;
+                    const double en = waves.variance.east_north - all.variance.z;
+                    // The smaller eigenvalue of what is left.
+                    least = std::min(least, 0.5 * (e + n) - std::hypot(0.5 * (e - n), en));
+                }
+            }
+        }
+    }
+    std::printf("parallels close by up to %.4f; roughness left: at least %.5f\n", closing, least);
+    EXPECT_GT(closing, 0.04);
+    // Calm water's 0.0015 (Cox and Munk) and a slope of 1 deg.
+    EXPECT_NEAR(least, 0.0018, 1e-6);
+}
+
+TEST(SlopeDensity, IsFiniteEvenOfAVarianceThatIsNone) {
+    for (const glm::dvec3& variance : {glm::dvec3{0.01, 0.01, 0.02}, glm::dvec3{-0.01, 0.02, 0.0},
+                                       glm::dvec3{0.0, 0.0, 0.0}, glm::dvec3{-1.0, -1.0, -0.5}}) {
+        for (const glm::dvec2& slope : {glm::dvec2{0.0, 0.0}, glm::dvec2{0.3, 0.3}, glm::dvec2{0.3, -0.3}}) {
+            const double density = shaders64::slope_density(slope, variance);
+            EXPECT_GE(density, 0.0);
+            // No more than that of the smoothest surface.
+            EXPECT_LE(density, 1.001 / (2.0 * kPi * 3e-4));
+        }
+    }
+}
+
 struct SeaUnderTest {
     SeaSurface surface;
     SeaView view;
