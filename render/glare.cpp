@@ -21,6 +21,14 @@ double luminance(const glm::dvec3& rgb) {
     return shaders64::luminance_709(rgb);
 }
 
+// Right, up and out, in the scene's axes.
+glm::dmat3 source_axes(const GlareSource& source) noexcept {
+    const double azimuth_rad = source.at.azimuth_rad;
+    const glm::dvec3 right{std::cos(azimuth_rad), -std::sin(azimuth_rad), 0.0};
+    const glm::dvec3 out = direction_of(source.at);
+    return {right, glm::cross(right, out), out};
+}
+
 }  // namespace
 
 double veil_per_lux(double angle_rad) noexcept {
@@ -107,6 +115,17 @@ std::vector<std::uint32_t> Glare::indices() {
     return indices;
 }
 
+bool still_serves(const GlareSource& made, const GlareSource& now) noexcept {
+    constexpr double kStep_rad = 3.5e-4;
+    constexpr double kStep = 0.005;
+    const double was = luminance(made.rgb_lux);
+    return std::abs(made.at.elevation_rad - now.at.elevation_rad) < kStep_rad &&
+           std::abs(std::remainder(made.at.azimuth_rad - now.at.azimuth_rad, 2.0 * std::numbers::pi)) <
+               kStep_rad &&
+           std::abs(made.radius_rad - now.radius_rad) <= kStep * made.radius_rad &&
+           std::abs(luminance(now.rgb_lux) - was) <= kStep * was;
+}
+
 void Glare::update(const GlareSource& source, const SkyLight& light, const DisplaySettings& display,
                    const shaders64::ToneParameters& tone) noexcept {
     reach_rad_ = 0.0;
@@ -145,14 +164,16 @@ void Glare::find_reach(const Veiled& veiled, const GlareSource& source, const Sk
     reach_rad_ = kReach_rad;
 }
 
-void Glare::lay(const Veiled& veiled, const GlareSource& source, const SkyLight& light) noexcept {
-    const double az = source.at.azimuth_rad, el = source.at.elevation_rad;
-    const glm::dvec3 right{std::cos(az), -std::sin(az), 0.0};
-    const glm::dvec3 out = direction_of(source.at);
-    const glm::dvec3 up = glm::cross(right, out);
-    enu_from_source_ = glm::mat3{glm::dmat3{right, up, out}};
+void Glare::follow(const GlareSource& source, const SkyLight& light) noexcept {
+    enu_from_source_ = glm::mat3{source_axes(source)};
     horizon_rad_ = static_cast<float>(light.horizon_elevation_rad);
-    const bool low = el - reach_rad_ < light.horizon_elevation_rad;
+}
+
+void Glare::lay(const Veiled& veiled, const GlareSource& source, const SkyLight& light) noexcept {
+    follow(source, light);
+    const glm::dmat3 axes = source_axes(source);
+    const glm::dvec3 right = axes[0], up = axes[1], out = axes[2];
+    const bool low = source.at.elevation_rad - reach_rad_ < light.horizon_elevation_rad;
     const double ratio = std::pow(reach_rad_ / source.radius_rad, 1.0 / (kRings - 1));
     double ring_rad = source.radius_rad;
     for (std::size_t ring = 0; ring < kRings; ++ring, ring_rad *= ratio) {

@@ -36,6 +36,9 @@ struct GlareSource {
     /// above the horizon and out of eclipse.
     glm::dvec3 rgb_lux{0.0};
 };
+/// Whether a veil laid for `made` still serves `now`: its place within 0.02 deg, its light within a half
+/// percent.
+[[nodiscard]] bool still_serves(const GlareSource& made, const GlareSource& now) noexcept;
 [[nodiscard]] GlareSource sun_glare(const Scene& scene, const sky::AirTables& air,
                                     const SkyLight& light) noexcept;
 [[nodiscard]] GlareSource moon_glare(const Scene& scene, const sky::AirTables& air,
@@ -62,6 +65,9 @@ class Glare {
     /// \param tone  the frame's, made of `display`. Allocates nothing.
     void update(const GlareSource& source, const SkyLight& light, const DisplaySettings& display,
                 const shaders64::ToneParameters& tone) noexcept;
+
+    /// The same veil, for a source and a horizon that have moved by little since update().
+    void follow(const GlareSource& source, const SkyLight& light) noexcept;
 
     /// How far from the source it adds half a display code or more; 0: nowhere outside the disc.
     [[nodiscard]] double reach_rad() const noexcept { return reach_rad_; }

@@ -158,21 +158,34 @@ void SkyFrame::refresh_milky_way(const Scene& scene) {
 void SkyFrame::dazzle(const Scene& scene) {
     // Luminance is without an eye.
     const bool wanted = displays_.front().glare && target_ == Target::kDisplay;
-    double sun_reach_rad = 0.0;
-    double moon_reach_rad = 0.0;
     if (wanted) {
-        const GlareSource sun = render::sun_glare(scene, tables_.air(), light_);
-        const GlareSource moon = render::moon_glare(scene, tables_.air(), light_);
-        // As far as any screen shows it.
-        for (std::size_t screen = 0; screen < displays_.size(); ++screen) {
-            sun_glares_[screen].update(sun, light_, displays_[screen], tones_[screen]);
-            moon_glares_[screen].update(moon, light_, displays_[screen], tones_[screen]);
-            sun_reach_rad = std::max(sun_reach_rad, sun_glares_[screen].reach_rad());
-            moon_reach_rad = std::max(moon_reach_rad, moon_glares_[screen].reach_rad());
-        }
+        veil(render::sun_glare(scene, tables_.air(), light_), sun_glares_, sun_veiled_);
+        veil(render::moon_glare(scene, tables_.air(), light_), moon_glares_, moon_veiled_);
     }
-    plan_glare(plan_, Pass::kSunGlare, wanted && scene.sun.enabled, sun_reach_rad);
-    plan_glare(plan_, Pass::kMoonGlare, wanted && scene.moon.enabled, moon_reach_rad);
+    const auto reach_rad = [&](const std::vector<Glare>& glares) {
+        double farthest = 0.0;  // as far as any screen shows it
+        for (const Glare& glare : glares)
+            farthest = std::max(farthest, wanted ? glare.reach_rad() : 0.0);
+        return farthest;
+    };
+    plan_glare(plan_, Pass::kSunGlare, wanted && scene.sun.enabled, reach_rad(sun_glares_));
+    plan_glare(plan_, Pass::kMoonGlare, wanted && scene.moon.enabled, reach_rad(moon_glares_));
+}
+
+void SkyFrame::veil(const GlareSource& source, std::vector<Glare>& glares, VeilMade& made) {
+    const double adaptation = adaptation_.luminance_cd_m2();
+    const bool serves =
+        made.tables == tables_.revision() && !tables_.jumped() &&
+        std::abs(adaptation - made.adaptation_cd_m2) <= kAdaptationStep * made.adaptation_cd_m2 &&
+        still_serves(made.source, source);
+    if (serves) {
+        for (Glare& glare : glares)
+            glare.follow(source, light_);
+        return;
+    }
+    for (std::size_t screen = 0; screen < glares.size(); ++screen)
+        glares[screen].update(source, light_, displays_[screen], tones_[screen]);
+    made = {source, tables_.revision(), adaptation};
 }
 
 void SkyFrame::refresh_dome(double pixel_rad) {

@@ -105,7 +105,14 @@ class SkyFrame {
     void adapt(const Scene& scene);
     void tone_screens(const Scene& scene, double smallest_pixel_sr);
     [[nodiscard]] double luminance_cd_m2(double elevation_rad, double azimuth_rad) const;
+    /// What the veils of a source were laid for.
+    struct VeilMade {
+        GlareSource source;
+        std::uint64_t tables = 0;
+        double adaptation_cd_m2 = 0.0;
+    };
     void dazzle(const Scene& scene);
+    void veil(const GlareSource& source, std::vector<Glare>& glares, VeilMade& made);
     void refresh_dome(double pixel_rad);
     void refresh_sea(const Scene& scene, double pixel_rad);
     void tell_dome() noexcept;
@@ -119,6 +126,8 @@ class SkyFrame {
     eye::Adaptation adaptation_;
     std::vector<Glare> sun_glares_;  // one a screen
     std::vector<Glare> moon_glares_;
+    VeilMade sun_veiled_;
+    VeilMade moon_veiled_;
     DomeBend bend_;
     Dome dome_;
     SeaMesh sea_;
