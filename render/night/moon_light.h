@@ -25,8 +25,8 @@ namespace skyig::render::night {
 /// moon_illuminance_lux() at every phase.
 [[nodiscard]] double moon_face_cd_m2(const Moon& moon, double sun_distance_au = 1.0) noexcept;
 
-/// Mean luminance of the whole disc, its dark part in the light of the Earth, cd/m2: what an eye that looks at
-/// it adapts to.
+/// Mean luminance of the whole disc, its dark part in the light of the Earth, cd/m2: what an eye that looks
+/// at it adapts to.
 [[nodiscard]] double moon_mean_cd_m2(const Moon& moon, double sun_distance_au = 1.0) noexcept;
 
 /// Luminance of the dark side in the light of the Earth, cd/m2, of ground of the Moon's mean albedo.
