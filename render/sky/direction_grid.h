@@ -68,12 +68,20 @@ class Grid {
             extend(at(rows_ - 1, column), at(rows_ - 2, column), at(rows_ - 3, column), at(rows_, column));
         }
     }
-    [[nodiscard]] Node sample(float row, float column) const noexcept {
+    /// By the cubic, and by straight lines between the four nodes around.
+    struct Sample {
+        Node cubic{};
+        Node linear{};
+    };
+    [[nodiscard]] Sample sample(float row, float column) const noexcept {
         const int i = std::clamp(static_cast<int>(row), 0, rows_ - 2);
         const int j = std::clamp(static_cast<int>(column), 0, columns_ - 2);
-        const auto by_row = catmull_rom(std::clamp(row - static_cast<float>(i), 0.0F, 1.0F));
-        const auto by_column = catmull_rom(std::clamp(column - static_cast<float>(j), 0.0F, 1.0F));
-        Node sum{};
+        const float up = std::clamp(row - static_cast<float>(i), 0.0F, 1.0F);
+        const float right = std::clamp(column - static_cast<float>(j), 0.0F, 1.0F);
+        const auto by_row = catmull_rom(up);
+        const auto by_column = catmull_rom(right);
+        Sample sample;
+        Node& sum = sample.cubic;
         for (int a = 0; a < 4; ++a) {
             const Node* line = &nodes_[index(i - 1 + a, j - 1)];
             for (std::size_t b = 0; b < 4; ++b) {
@@ -82,7 +90,14 @@ class Grid {
                     sum[k] += weight * line[b][k];
             }
         }
-        return sum;
+        const Node* low = &nodes_[index(i, j)];
+        const Node* high = &nodes_[index(i + 1, j)];
+        for (std::size_t k = 0; k < sum.size(); ++k) {
+            const float below = low[0][k] + right * (low[1][k] - low[0][k]);
+            const float above = high[0][k] + right * (high[1][k] - high[0][k]);
+            sample.linear[k] = below + up * (above - below);
+        }
+        return sample;
     }
 
   private:

@@ -219,7 +219,7 @@ glm::vec3 SeaView::xyz(double elevation_rad, double azimuth_rad, double source_a
     const State& s = *state_;
     State::Place at;
     if (!s.place(elevation_rad, azimuth_rad, source_azimuth_rad, at)) return glm::vec3(0.0F);
-    const Node node = s.grid.sample(at.row, at.column);
+    const Node node = s.grid.sample(at.row, at.column).cubic;
     const auto glitter =
         static_cast<float>(s.surface.glitter_per_sr(at.meeting.view_up, azimuth_rad, at.source));
     const glm::vec3 seen{node[0] + glitter * node[4], node[1] + glitter * node[5],
@@ -246,7 +246,7 @@ SeaView::OfSlopes SeaView::of_slopes(double elevation_rad, double azimuth_rad,
     const auto e = static_cast<float>(std::sin(azimuth_rad));
     const auto n = static_cast<float>(std::cos(azimuth_rad));
     const glm::vec3& b = found.bend;
-    const Node light = s.grid.sample(at.row, at.column);
+    const Node light = s.grid.sample(at.row, at.column).cubic;
     const SeaSurface::Mirror mirror = s.surface.mirror(at.meeting.view_up, azimuth_rad, at.source);
     const auto per_density = static_cast<float>(mirror.per_density);
     return {e * found.first_xyz + n * found.second_xyz,

@@ -66,6 +66,23 @@ struct RowMap {
     }
 };
 
+SkyParts parts_of(const Node& node) noexcept {
+    return {glm::vec3(node[0], node[1], node[2]), glm::vec3(node[4], node[5], node[6])};
+}
+
+// Where light breaks off, at a limb in the Earth's shadow, the cubic swings below nothing in one component
+// and not in another: no colour any more. It gives way to the straight lines just so far that each component
+// keeps a quarter of theirs.
+glm::vec3 without_undershoot(const glm::vec3& cubic, const glm::vec3& linear) noexcept {
+    constexpr float kKept = 0.25F;
+    float share = 1.0F;
+    for (int k = 0; k < 3; ++k) {
+        const float least = kKept * linear[k];
+        if (cubic[k] < least) share = std::min(share, (linear[k] - least) / (linear[k] - cubic[k]));
+    }
+    return glm::max(linear + share * (cubic - linear), glm::vec3(0.0F));
+}
+
 }  // namespace
 
 struct SkyView::State {
@@ -80,7 +97,10 @@ struct SkyView::State {
     [[nodiscard]] double elevation_rad(Side side, int row) const noexcept;
     void march(const Path& path, int count) noexcept;
     [[nodiscard]] Node node_of(const Lanes& all, const Lanes& hazy) const noexcept;
-    [[nodiscard]] SkyParts parts(Side side, float elevation_rad, float azimuth_rad) const noexcept;
+    [[nodiscard]] Grid::Sample sample(Side side, float elevation_rad, float azimuth_rad) const noexcept;
+    [[nodiscard]] SkyParts parts(Side side, float elevation_rad, float azimuth_rad) const noexcept {
+        return parts_of(sample(side, elevation_rad, azimuth_rad).cubic);
+    }
     [[nodiscard]] glm::vec3 look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept;
 
     SkyViewSize size;
@@ -198,7 +218,7 @@ void SkyView::State::build_row(int row) noexcept {
     grid.close_row(line);
 }
 
-SkyParts SkyView::State::parts(Side side, float elevation_rad, float azimuth_rad) const noexcept {
+Grid::Sample SkyView::State::sample(Side side, float elevation_rad, float azimuth_rad) const noexcept {
     if (air == nullptr || !std::isfinite(elevation_rad) || !std::isfinite(azimuth_rad)) return {};
     const auto horizon = static_cast<float>(horizon_rad);
     const float angle = side == Side::kSky ? elevation_rad - horizon : horizon - elevation_rad;
@@ -207,14 +227,15 @@ SkyParts SkyView::State::parts(Side side, float elevation_rad, float azimuth_rad
     if (side == Side::kSky && highest_rad < kHalfPi && elevation_rad >= static_cast<float>(highest_rad))
         return {};
     const Grid& grid = side == Side::kSky ? sky : ground;
-    const Node node = grid.sample(
+    return grid.sample(
         map.w(std::clamp(angle, 0.0F, range)) * static_cast<float>(grid.rows() - 1),
         folded_azimuth(azimuth_rad) * std::numbers::inv_pi_v<float> * static_cast<float>(size.columns - 1));
-    return {glm::vec3(node[0], node[1], node[2]), glm::vec3(node[4], node[5], node[6])};
 }
 
 glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept {
-    const SkyParts seen = parts(side, elevation_rad, azimuth_rad);
+    const Grid::Sample sampled = sample(side, elevation_rad, azimuth_rad);
+    const SkyParts seen = parts_of(sampled.cubic);
+    const SkyParts straight = parts_of(sampled.linear);
     if (seen.haze == glm::vec3(0.0F) && seen.rest == glm::vec3(0.0F)) return glm::vec3(0.0F);
     const auto horizon = static_cast<float>(horizon_rad);
     constexpr auto kQuarterTurn = static_cast<float>(kHalfPi);
@@ -226,7 +247,8 @@ glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_
                          level * static_cast<float>(source_cosine) * std::cos(folded_azimuth(azimuth_rad));
     const float phase =
         cornette_shanks_phase(static_cast<float>(air->model.aerosol_g), std::clamp(cosine, -1.0F, 1.0F));
-    return glm::max(seen.rest + phase * seen.haze, glm::vec3(0.0F));
+    return without_undershoot(seen.rest + phase * seen.haze,
+                              glm::max(straight.rest + phase * straight.haze, glm::vec3(0.0F)));
 }
 
 SkyView::SkyView(const SkyViewSize& size) {

@@ -175,6 +175,27 @@ TEST(SkyView, TheHorizonIsNoLineInThickHaze) {
     EXPECT_LT(largest, 0.004);
 }
 
+TEST(SkyView, TheLimbKeepsItsColourWhereTheEarthsShadowEndsIt) {
+    SkyView view;
+    view.begin(clear_air(), 3.6e7, -66.57 * kDeg);
+    view.build_all();
+    float least = 1.0F;
+    int lit = 0;
+    for (const double azimuth : steps(0.0, 3.14, 0.01)) {
+        for (const double above : steps(-0.003, 0.003, 5e-5)) {
+            const glm::vec3 xyz = view.xyz(f32(view.horizon_elevation_rad() + above), f32(azimuth));
+            if (!(xyz.z > 1e-3F)) continue;
+            ++lit;
+            // Sunlight scattered by molecules alone ends at x = 0.24; ozone takes it to some 0.15.
+            least = std::min(least, xyz.x / (xyz.x + xyz.y + xyz.z));
+        }
+    }
+    std::printf("limb from 36,000 km: x of its chromaticity at least %.3f, %d places\n",
+                static_cast<double>(least), lit);
+    EXPECT_GT(lit, 1000);
+    EXPECT_GT(least, 0.12F);
+}
+
 TEST(SkyView, SpaceIsBlack) {
     SkyView view;
     for (const double height_m : {120.001e3, 400.0e3, 3.6e7}) {
