@@ -29,6 +29,14 @@ glm::dmat3 source_axes(const GlareSource& source) noexcept {
     return {right, glm::cross(right, out), out};
 }
 
+// Where the air shows a disc.
+GlareSource unlit_source(const glm::dvec3& airless_enu, double radius_rad, const SkyLight& light) noexcept {
+    const Horizontal airless = horizontal_of(airless_enu);
+    return {{light.refraction.apparent_from_true(airless.elevation_rad), airless.azimuth_rad},
+            radius_rad,
+            glm::dvec3{0.0}};
+}
+
 }  // namespace
 
 double veil_per_lux(double angle_rad) noexcept {
@@ -40,10 +48,7 @@ double veil_per_lux(double angle_rad) noexcept {
 }
 
 GlareSource sun_glare(const Scene& scene, const sky::AirTables& air, const SkyLight& light) noexcept {
-    const Horizontal airless = horizontal_of(scene.sun.direction_enu);
-    GlareSource source{{light.refraction.apparent_from_true(airless.elevation_rad), airless.azimuth_rad},
-                       scene.sun.angular_radius_rad,
-                       glm::dvec3{0.0}};
+    GlareSource source = unlit_source(scene.sun.direction_enu, scene.sun.angular_radius_rad, light);
     if (!scene.sun.enabled) return source;
     const double straight_rad = light.straight_elevation_rad(source.at.elevation_rad);
     source.rgb_lux =
@@ -53,10 +58,7 @@ GlareSource sun_glare(const Scene& scene, const sky::AirTables& air, const SkyLi
 }
 
 GlareSource moon_glare(const Scene& scene, const sky::AirTables& air, const SkyLight& light) noexcept {
-    const Horizontal airless = horizontal_of(scene.moon.direction_enu);
-    GlareSource source{{light.refraction.apparent_from_true(airless.elevation_rad), airless.azimuth_rad},
-                       scene.moon.angular_radius_rad,
-                       glm::dvec3{0.0}};
+    GlareSource source = unlit_source(scene.moon.direction_enu, scene.moon.angular_radius_rad, light);
     if (!scene.moon.enabled) return source;
     const double straight_rad = light.straight_elevation_rad(source.at.elevation_rad);
     source.rgb_lux = scene.moon.sunlit * night::moon_illuminance_lux(scene.moon, scene.sun.distance_au) *

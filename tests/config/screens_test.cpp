@@ -1,0 +1,61 @@
+// [display], the displays of channels, and [quality].
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "config/config.h"
+#include "tests/config/texts.h"
+
+namespace skyig::config {
+namespace {
+
+using testing::HasSubstr;
+using tests::error_of;
+using tests::errors_of;
+using tests::with;
+
+TEST(Screens, AdaptationFollowsTheDisplayUnlessGiven) {
+    const LoadResult result = parse_config(with("[display]\nmax_luminance_cd_m2 = 80"), "site.toml");
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result.config->display.adaptation_cd_m2, 40.0);
+    EXPECT_FALSE(result.config->channels[0].display);
+}
+
+TEST(Screens, ChannelsScreenIsAVariantOfTheUsualOne) {
+    const auto screen_of = [](const std::string& keys) {
+        const LoadResult result =
+            parse_config(with("[display]\nmax_luminance_cd_m2 = 80\ngamma = 2.4\nblack_cd_m2 = 0.5") +
+                             "\n[channel.display]\n" + keys,
+                         "site.toml");
+        EXPECT_TRUE(result) << to_text(result.errors.front());
+        return result ? result.config->channels[0].display : std::nullopt;
+    };
+    EXPECT_EQ(screen_of(""), (Screen{80.0, 40.0, 2.4, 0.5, 0.0}));
+    EXPECT_EQ(screen_of("max_luminance_cd_m2 = 300"), (Screen{300.0, 150.0, 2.4, 0.5, 0.0}));
+    EXPECT_EQ(screen_of("gamma = \"srgb\"\nreflected_cd_m2 = 2"),
+              (Screen{80.0, 40.0, std::nullopt, 0.5, 2.0}));
+    const LoadResult wrong = parse_config(with("") + "\n[channel.display]\ndither = true", "site.toml");
+    ASSERT_FALSE(wrong);
+    EXPECT_EQ(wrong.errors.front().key, "channel[1].display.dither");
+}
+
+TEST(Screens, AScreenThatCanShowNothingAboveItsBlackIsRefused) {
+    const ConfigError error = error_of(with("[display]\nmax_luminance_cd_m2 = 100\nreflected_cd_m2 = 120"));
+    EXPECT_EQ(error.key, "display.reflected_cd_m2");
+    EXPECT_EQ(error.line, 4);
+    EXPECT_THAT(error.message, HasSubstr("full white, 100 cd/m2, must be more"));
+    EXPECT_EQ(error_of(with("[display]\nblack_cd_m2 = 400")).key, "display.black_cd_m2");
+    EXPECT_TRUE(errors_of(with("[display]\nmax_luminance_cd_m2 = 100\nreflected_cd_m2 = 99")).empty());
+}
+
+TEST(Quality, IsGivenInCodesOrInPercent) {
+    const LoadResult result = parse_config(with("[quality]\nerror_pct = 3.4"), "site.toml");
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result.config->quality.error_pct, 3.4);
+    EXPECT_EQ(result.config->quality.error_codes, 0.5);
+    EXPECT_THAT(error_of(with("[quality]\nerror_pct = 3\nerror_codes = 1")).message,
+                HasSubstr("stands beside error_codes; give one of them"));
+    EXPECT_THAT(error_of(with("[quality]\nerror_codes = 9")).message, HasSubstr("0.1..8"));
+}
+
+}  // namespace
+}  // namespace skyig::config
