@@ -66,10 +66,6 @@ struct RowMap {
     }
 };
 
-SkyParts parts_of(const Node& node) noexcept {
-    return {glm::vec3(node[0], node[1], node[2]), glm::vec3(node[4], node[5], node[6])};
-}
-
 // Where light breaks off, at a limb in the Earth's shadow, the cubic swings below nothing in one component
 // and not in another: no colour any more. It gives way to the straight lines just so far that each component
 // keeps a quarter of theirs.
@@ -81,6 +77,17 @@ glm::vec3 without_undershoot(const glm::vec3& cubic, const glm::vec3& linear) no
         if (cubic[k] < least) share = std::min(share, (linear[k] - least) / (linear[k] - cubic[k]));
     }
     return glm::max(linear + share * (cubic - linear), glm::vec3(0.0F));
+}
+
+SkyParts parts_of(const Grid::Sample& sample) noexcept {
+    const auto triple = [](const Node& node, std::size_t first) {
+        return glm::vec3(node[first], node[first + 1], node[first + 2]);
+    };
+    const auto part = [&](std::size_t first) {
+        return without_undershoot(triple(sample.cubic, first),
+                                  glm::max(triple(sample.linear, first), glm::vec3(0.0F)));
+    };
+    return {part(0), part(4)};
 }
 
 }  // namespace
@@ -99,7 +106,7 @@ struct SkyView::State {
     [[nodiscard]] Node node_of(const Lanes& all, const Lanes& hazy) const noexcept;
     [[nodiscard]] Grid::Sample sample(Side side, float elevation_rad, float azimuth_rad) const noexcept;
     [[nodiscard]] SkyParts parts(Side side, float elevation_rad, float azimuth_rad) const noexcept {
-        return parts_of(sample(side, elevation_rad, azimuth_rad).cubic);
+        return parts_of(sample(side, elevation_rad, azimuth_rad));
     }
     [[nodiscard]] glm::vec3 look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept;
 
@@ -233,9 +240,7 @@ Grid::Sample SkyView::State::sample(Side side, float elevation_rad, float azimut
 }
 
 glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_rad) const noexcept {
-    const Grid::Sample sampled = sample(side, elevation_rad, azimuth_rad);
-    const SkyParts seen = parts_of(sampled.cubic);
-    const SkyParts straight = parts_of(sampled.linear);
+    const SkyParts seen = parts(side, elevation_rad, azimuth_rad);
     if (seen.haze == glm::vec3(0.0F) && seen.rest == glm::vec3(0.0F)) return glm::vec3(0.0F);
     const auto horizon = static_cast<float>(horizon_rad);
     constexpr auto kQuarterTurn = static_cast<float>(kHalfPi);
@@ -247,8 +252,7 @@ glm::vec3 SkyView::State::look_up(Side side, float elevation_rad, float azimuth_
                          level * static_cast<float>(source_cosine) * std::cos(folded_azimuth(azimuth_rad));
     const float phase =
         cornette_shanks_phase(static_cast<float>(air->model.aerosol_g), std::clamp(cosine, -1.0F, 1.0F));
-    return without_undershoot(seen.rest + phase * seen.haze,
-                              glm::max(straight.rest + phase * straight.haze, glm::vec3(0.0F)));
+    return seen.rest + phase * seen.haze;
 }
 
 SkyView::SkyView(const SkyViewSize& size) {
