@@ -13,6 +13,7 @@
 #include "render/channel.h"
 #include "render/night_settings.h"
 #include "render/sky_settings.h"
+#include "render/weather.h"
 
 namespace skyig::render {
 
@@ -157,6 +158,7 @@ struct Scene {
     Air air;
     Ground ground;
     Sea sea;
+    Weather weather;
     /// Which model draws the day sky.
     SkySettings sky;
     /// What shines in the dark one.
