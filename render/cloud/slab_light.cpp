@@ -48,13 +48,12 @@ float marched_brf(const Slab& slab, bool above, float mu0, float mu, float cos_s
     constexpr int kSteps = 32;
     const CloudScatter scatter(mu0, {slab.g, slab.albedo, CloudPhase::kHenyeyGreenstein});
     const CloudScatter::Ray ray = scatter.ray(above ? mu : -mu, cos_scatter);
-    const float slant = scatter.share() * slab.optical_depth / mu;
+    const float slant = slab.optical_depth / mu;
     const float taken = -std::expm1(-slant);
     float sum = 0.0F;
     for (int i = 0; i <= kSteps; ++i) {
         const float part = static_cast<float>(i) / static_cast<float>(kSteps);
-        const float from_eye =
-            std::min(-std::log1p(-std::min(part * taken, 0.9999999F)), slant) * mu / scatter.share();
+        const float from_eye = std::min(-std::log1p(-std::min(part * taken, 0.9999999F)), slant) * mu;
         const float over =
             std::clamp(above ? from_eye : slab.optical_depth - from_eye, 0.0F, slab.optical_depth);
         const float weight = i == 0 || i == kSteps ? 0.5F : 1.0F;

@@ -94,20 +94,16 @@ struct CloudAmbient {
 
 /// One parallel source on cloud of one kind; made once a frame.
 ///
-/// A marcher of a step of true optical depth d (front to back, `seen` and `passed` begin as 1):
-///     const float soft = std::exp(-scatter.share() * d), hard = std::exp(-d);
-///     light += passed * (1 - soft) * beam_lx * ray.source(point);
-///     light += seen * (1 - hard) * (ambient.from_above * above_cd_m2 + ambient.from_below * below_cd_m2);
-///     passed *= soft; seen *= hard;
-/// and `seen` is what is left of anything behind. The beam's light is dimmed by the cut depth, for the light
-/// that is scattered by less than a few degrees goes on with it.
+/// A marcher's step of optical depth d (front to back, `seen` begins as 1):
+///     const float opacity = 1 - std::exp(-d);
+///     light += seen * opacity * (beam_lx * ray.source(point) +
+///                                ambient.from_above * above_cd_m2 + ambient.from_below * below_cd_m2);
+///     seen *= 1 - opacity;
+/// and `seen` is what is left of anything behind.
 class CloudScatter {
   public:
     /// \param mu0  of the direction to the source, -1..1: below 0 it lights the clouds from below.
     explicit CloudScatter(float mu0 = 1.0F, const CloudOptics& optics = {}) noexcept;
-
-    /// Of true optical depth, what dims and scatters the beam's light once the forward peak is cut: 1 - f.
-    [[nodiscard]] float share() const noexcept { return share_; }
 
     /// What is the same along one view ray.
     class Ray {
@@ -138,7 +134,7 @@ class CloudScatter {
 };
 
 /// Source function of a slab's point under `depth_above`, pi S / (mu0 F0), as CloudScatter has it: integrated
-/// over the cut depth share * t / mu it gives slab_brf. \param mu_view  > 0 where the light goes up
+/// over the optical depth along the view ray it gives slab_brf. \param mu_view  > 0 where the light goes up
 [[nodiscard]] float slab_source(const Slab& whole, float depth_above, float mu0, float mu_view,
                                 float cos_scatter) noexcept;
 
