@@ -45,8 +45,7 @@ Area area_of(const CloudLayer& cloud) {
 void grow(const CloudLayer& cloud, Shape& shape) {
     if (cloud.genus != CloudGenus::kCumulonimbus) return;
     const auto severity = f32(std::clamp(cloud.severity, 0.0, 1.0));
-    shape.lift[1] *= 0.4F + 0.6F * severity;
-    shape.lift[2] *= 1.6F - 0.6F * severity;
+    shape.lift[2] *= severity;
 }
 
 Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnchor& anchor) {

@@ -33,17 +33,17 @@ constexpr Genus cumulus() {
 
 constexpr Genus cumulonimbus() {
     Genus g;
-    g.flats = {{{Sheet::kSmooth, turned(1, 1), 0.25F},
-                {Sheet::kPuffs, turned(2, 1), 1.0F},
-                {Sheet::kPuffs, turned(9, -4), 0.16F}}};
-    g.push = {0.04F, 0.03F};
-    g.fines = {{{turned(47, 21), 2600.0F, 0.20F}, {turned(211, 90), 570.0F, 0.07F}}};
-    // A waist, then the anvil.
-    g.lift = {0.95F, -1.35F, 0.55F};
+    g.flats = {{{Sheet::kSmooth, turned(1, 1), 0.45F},
+                {Sheet::kPuffs, turned(3, 1), 1.0F},
+                {Sheet::kPuffs, turned(11, -4), 0.16F}}};
+    g.push = {0.05F, 0.03F};
+    g.fines = {{{turned(19, 8), 6000.0F, 0.36F}, {turned(97, 40), 1300.0F, 0.14F}}};
+    // It tapers, then spreads into the anvil.
+    g.lift = {0.35F, 0.50F, -0.75F};
     g.edge = 0.12F;
-    g.reach_m = 900.0F;
+    g.reach_m = 700.0F;
     g.step_m = 40.0F;
-    g.stride_m = 800.0F;
+    g.stride_m = 600.0F;
     g.extinction_per_m = 0.06F;
     g.usual_thickness_m = 8000.0F;
     return g;
