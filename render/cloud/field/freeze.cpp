@@ -26,7 +26,7 @@ bool is_cloud(const CloudLayer& cloud) {
 
 double extinction_of(const CloudLayer& cloud) {
     const double own = static_cast<double>(genus_of(cloud.genus).extinction_per_m);
-    return std::clamp(cloud.extinction_per_m > 0.0 ? cloud.extinction_per_m : own, 1e-7, 1e3);
+    return std::clamp(cloud.extinction_per_m > 0.0 ? cloud.extinction_per_m : own, 1e-12, 1e3);
 }
 
 Area area_of(const CloudLayer& cloud) {
@@ -67,8 +67,6 @@ Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnch
     layer.bottom_scud = f32(std::clamp(cloud.bottom_scud, 0.0, 1.0));
     layer.top_scud = f32(std::clamp(cloud.top_scud, 0.0, 1.0));
     layer.extinction_per_m = f32(extinction);
-    layer.step_m = std::min(genus.step_m, 0.25F * layer.thickness_m);
-    layer.stride_m = genus.stride_m;
     layer.area = area_of(cloud);
     layer.g = genus.g;
     return layer;
@@ -190,25 +188,45 @@ void shine_on(Sky& sky, const CloudLight& light) {
 float low_of(const Layer& layer) { return layer.base_m - layer.bottom_band_m; }
 float high_of(const Layer& layer) { return upper(layer) + layer.top_band_m; }
 
+// A step is this part of the way to it where it is neither shortest nor longest.
+constexpr float kRate = 0.005F;
+
+Cells cells_of(float least_m, float most_m) {
+    Cells cells{};
+    cells.least_m = least_m;
+    cells.rate = kRate;
+    cells.most_m = std::max(most_m, least_m);
+    cells.near_m = least_m / kRate;
+    cells.near = 1.0F / kRate;
+    cells.far_m = cells.most_m / kRate;
+    cells.far = cells.near + std::log(cells.far_m / cells.near_m) / kRate;
+    return cells;
+}
+
 // Layers by height, those that overlap together; sheets each for themselves.
 void stack(const Sky& sky, Field& field) {
-    std::array<const Layer*, Weather::kMaxClouds> order{};
+    std::array<const Known*, Weather::kMaxClouds> order{};
     for (std::size_t k = 0; k < sky.count; ++k)
-        order[k] = &sky.layers[k].layer;
+        order[k] = &sky.layers[k];
     const auto end = order.begin() + static_cast<std::ptrdiff_t>(sky.count);
-    std::sort(order.begin(), end, [](const Layer* a, const Layer* b) {
-        if (a->sheet != b->sheet) return b->sheet;
-        return low_of(*a) != low_of(*b) ? low_of(*a) < low_of(*b) : a < b;
+    std::sort(order.begin(), end, [](const Known* one, const Known* other) {
+        const Layer& a = one->layer;
+        const Layer& b = other->layer;
+        if (a.sheet != b.sheet) return b.sheet;
+        return low_of(a) != low_of(b) ? low_of(a) < low_of(b) : one < other;
     });
     field.deck_count = 0;
     for (std::size_t k = 0; k < sky.count; ++k) {
-        const Layer& layer = *order[k];
+        const Layer& layer = order[k]->layer;
+        const Genus& genus = genus_of(order[k]->cloud->genus);
+        const Cells own = cells_of(std::min(genus.step_m, 0.1F * layer.thickness_m), genus.stride_m);
         const bool joins = field.deck_count > 0 && !layer.sheet &&
                            low_of(layer) < field.decks[field.deck_count - 1].high_m;
-        if (!joins) field.decks[field.deck_count++] = {static_cast<int>(k), 0, low_of(layer), high_of(layer)};
+        if (!joins) field.decks[field.deck_count++] = {static_cast<int>(k), 0, low_of(layer), high_of(layer), own};
         Deck& deck = field.decks[field.deck_count - 1];
         ++deck.count;
         deck.high_m = std::max(deck.high_m, high_of(layer));
+        deck.cells = cells_of(std::min(deck.cells.least_m, own.least_m), std::min(deck.cells.most_m, own.most_m));
         field.layers[k] = layer;
     }
     std::sort(field.decks, field.decks + field.deck_count, [](const Deck& a, const Deck& b) {

@@ -70,8 +70,6 @@ struct Layer {
     float bottom_scud;
     float top_scud;
     float extinction_per_m;
-    float step_m;      // the shortest
-    float stride_m;    // the longest
     Area area;
     float g;
     LayerBeam beams[kBeams];
@@ -81,12 +79,21 @@ struct Layer {
 
 inline constexpr int kMostLayers = 16;
 
+/// Lengths of the cells that the way from the eye is cut into: least_m up to near_m, where cell `near` begins;
+/// from there rate times the way, up to far_m and cell `far`; then most_m.
+struct Cells {
+    float least_m, rate, most_m;
+    float near_m, near;
+    float far_m, far;
+};
+
 /// Layers that overlap in height, marched together: layers[first] .. layers[first + count - 1].
 struct Deck {
     int first;
     int count;
     float low_m;
     float high_m;
+    Cells cells;
 };
 
 struct Field {
@@ -105,9 +112,17 @@ struct alignas(64) Rays {
     float light[3][kRays];
     float transmittance[kRays];
     float distance_m[kRays];
+    int count;
     float from_m;
     float to_m;
     float ray_rad;
+};
+
+/// The part of a ray between two heights, on its way down or up; empty if to <= from.
+struct alignas(64) Parts {
+    float sine[kRays];  // of the ray's elevation
+    float from_m[kRays];
+    float to_m[kRays];
 };
 
 struct alignas(64) Points {
@@ -127,8 +142,9 @@ struct alignas(64) Sources {
 
 struct Kernels {
     const char* name;
-    /// Fills light, transmittance and distance of all kRays rays.
+    /// Fills light, transmittance and distance of the first `count` rays.
     void (*march)(const Field& field, Rays& rays);
+    void (*parts)(float eye_m, float low_m, float high_m, bool rising, Parts& parts);
     /// Fills the values of a shape whose layer is this thick, all octaves at full weight.
     void (*values)(const Shape& shape, float thickness_m, Points& points);
     /// CloudScatter::Ray::source of clouds of this g that do not absorb.

@@ -24,8 +24,8 @@ constexpr Genus cumulus() {
     g.lift = {0.10F, 0.45F, 0.0F};
     g.edge = 0.16F;
     g.reach_m = 350.0F;
-    g.step_m = 22.0F;
-    g.stride_m = 300.0F;
+    g.step_m = 12.0F;
+    g.stride_m = 150.0F;
     g.extinction_per_m = 0.05F;
     g.usual_thickness_m = 1000.0F;
     return g;
@@ -42,8 +42,8 @@ constexpr Genus cumulonimbus() {
     g.lift = {0.35F, 0.50F, -0.75F};
     g.edge = 0.12F;
     g.reach_m = 700.0F;
-    g.step_m = 40.0F;
-    g.stride_m = 600.0F;
+    g.step_m = 20.0F;
+    g.stride_m = 300.0F;
     g.extinction_per_m = 0.06F;
     g.usual_thickness_m = 8000.0F;
     return g;
@@ -59,8 +59,8 @@ constexpr Genus stratocumulus() {
     g.lift = {0.0F, 0.30F, 0.0F};
     g.edge = 0.22F;
     g.reach_m = 300.0F;
-    g.step_m = 22.0F;
-    g.stride_m = 300.0F;
+    g.step_m = 12.0F;
+    g.stride_m = 150.0F;
     g.extinction_per_m = 0.045F;
     g.usual_thickness_m = 400.0F;
     return g;
@@ -76,8 +76,8 @@ constexpr Genus smooth_sheet(int main, float extinction_per_m, float thickness_m
     g.lift = {0.0F, 0.0F, 0.0F};
     g.edge = 0.35F;
     g.reach_m = 300.0F;
-    g.step_m = 25.0F;
-    g.stride_m = 500.0F;
+    g.step_m = 16.0F;
+    g.stride_m = 250.0F;
     g.extinction_per_m = extinction_per_m;
     g.usual_thickness_m = thickness_m;
     return g;
@@ -93,8 +93,8 @@ constexpr Genus altocumulus() {
     g.lift = {0.0F, 0.30F, 0.0F};
     g.edge = 0.30F;
     g.reach_m = 120.0F;
-    g.step_m = 25.0F;
-    g.stride_m = 120.0F;
+    g.step_m = 14.0F;
+    g.stride_m = 60.0F;
     g.extinction_per_m = 0.02F;
     g.usual_thickness_m = 350.0F;
     return g;
@@ -110,8 +110,8 @@ constexpr Genus cirrus() {
     g.lift = {0.0F, 0.20F, 0.0F};
     g.edge = 0.75F;
     g.reach_m = 500.0F;
-    g.step_m = 80.0F;
-    g.stride_m = 500.0F;
+    g.step_m = 50.0F;
+    g.stride_m = 250.0F;
     g.extinction_per_m = 0.0012F;
     g.usual_thickness_m = 1000.0F;
     g.g = 0.78F;
@@ -131,7 +131,7 @@ constexpr Genus cirrocumulus() {
     Genus g = altocumulus();
     g.flats[1] = {Sheet::kCells, {29, 11, -17, 45}, 1.0F};
     g.reach_m = 70.0F;
-    g.stride_m = 70.0F;
+    g.stride_m = 40.0F;
     g.extinction_per_m = 0.003F;
     g.usual_thickness_m = 250.0F;
     g.g = 0.78F;

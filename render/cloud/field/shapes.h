@@ -43,8 +43,9 @@ struct Genus {
     std::array<float, 3> lift{};
     float edge = 0.2F;
     float reach_m = 200.0F;
-    float step_m = 25.0F;
-    float stride_m = 400.0F;
+    /// Shortest and longest steps through it.
+    float step_m = 16.0F;
+    float stride_m = 200.0F;
     float extinction_per_m = 0.05F;
     float usual_thickness_m = 500.0F;
     /// Mean cosine of scattering: water or ice.
