@@ -8,7 +8,7 @@ namespace skyig::render::cloud::field {
 namespace {
 
 constexpr int kHeights = 16;
-constexpr int kColumns = 1024;
+constexpr int kColumns = 4096;
 static_assert(kRays % kHeights == 0);
 
 using Column = std::array<float, kHeights>;

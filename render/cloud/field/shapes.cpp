@@ -21,8 +21,8 @@ constexpr Genus cumulus() {
                 {Sheet::kPuffs, turned(19, -5), 0.22F}}};
     g.push = {0.05F, 0.03F};
     g.fines = {{{turned(131, 62), 800.0F, 0.26F}, {turned(523, 286), 200.0F, 0.10F}}};
-    g.lift = {0.10F, 0.45F, 0.0F};
-    g.edge = 0.16F;
+    g.lift = {0.10F, 0.40F, 0.0F};
+    g.edge = 0.34F;
     g.reach_m = 350.0F;
     g.step_m = 12.0F;
     g.stride_m = 150.0F;
@@ -40,7 +40,7 @@ constexpr Genus cumulonimbus() {
     g.fines = {{{turned(19, 8), 6000.0F, 0.36F}, {turned(97, 40), 1300.0F, 0.14F}}};
     // It tapers, then spreads into the anvil.
     g.lift = {0.35F, 0.50F, -0.75F};
-    g.edge = 0.12F;
+    g.edge = 0.30F;
     g.reach_m = 700.0F;
     g.step_m = 20.0F;
     g.stride_m = 300.0F;
@@ -51,13 +51,13 @@ constexpr Genus cumulonimbus() {
 
 constexpr Genus stratocumulus() {
     Genus g;
-    g.flats = {{{Sheet::kSmooth, turned(2, -1), 0.30F},
+    g.flats = {{{Sheet::kSmooth, turned(2, -1), 0.35F},
                 {Sheet::kCells, {5, 2, -3, 8}, 1.0F},
-                {Sheet::kSmooth, turned(23, 7), 0.30F}}};
+                {Sheet::kPuffs, turned(13, 7), 0.45F}}};
     g.push = {0.10F, 0.06F};
-    g.fines = {{{turned(163, 71), 500.0F, 0.22F}, {turned(547, 230), 160.0F, 0.08F}}};
+    g.fines = {{{turned(163, 71), 400.0F, 0.34F}, {turned(547, 230), 160.0F, 0.12F}}};
     g.lift = {0.0F, 0.30F, 0.0F};
-    g.edge = 0.22F;
+    g.edge = 0.45F;
     g.reach_m = 300.0F;
     g.step_m = 12.0F;
     g.stride_m = 150.0F;
@@ -74,7 +74,7 @@ constexpr Genus smooth_sheet(int main, float extinction_per_m, float thickness_m
     g.push = {0.05F, 0.05F};
     g.fines = {{{turned(89, 37), 700.0F, 0.12F}, {}}};
     g.lift = {0.0F, 0.0F, 0.0F};
-    g.edge = 0.35F;
+    g.edge = 0.7F;
     g.reach_m = 300.0F;
     g.step_m = 16.0F;
     g.stride_m = 250.0F;
@@ -91,28 +91,28 @@ constexpr Genus altocumulus() {
     g.push = {0.35F, 0.20F};
     g.fines = {{{turned(353, 131), 250.0F, 0.20F}, {}}};
     g.lift = {0.0F, 0.30F, 0.0F};
-    g.edge = 0.30F;
+    g.edge = 0.6F;
     g.reach_m = 120.0F;
     g.step_m = 14.0F;
     g.stride_m = 60.0F;
-    g.extinction_per_m = 0.02F;
+    g.extinction_per_m = 0.015F;
     g.usual_thickness_m = 350.0F;
     return g;
 }
 
 constexpr Genus cirrus() {
     Genus g;
-    g.flats = {{{Sheet::kSmooth, turned(3, 1), 0.55F},
-                {Sheet::kFibres, turned(3, 1), 1.0F},
-                {Sheet::kFibres, turned(10, 3), 0.45F}}};
-    g.push = {0.08F, 0.10F};
+    g.flats = {{{Sheet::kSmooth, turned(3, 1), 0.60F},
+                {Sheet::kFibres, turned(5, 2), 1.0F},
+                {Sheet::kFibres, turned(17, 6), 0.6F}}};
+    g.push = {0.10F, 0.16F};
     g.fines = {{{drawn(23, 7, 3), 1500.0F, 0.10F}, {}}};
     g.lift = {0.0F, 0.20F, 0.0F};
-    g.edge = 0.75F;
+    g.edge = 1.1F;
     g.reach_m = 500.0F;
     g.step_m = 50.0F;
     g.stride_m = 250.0F;
-    g.extinction_per_m = 0.0012F;
+    g.extinction_per_m = 0.0010F;
     g.usual_thickness_m = 1000.0F;
     g.g = 0.78F;
     g.change_m_s = 2.0F;
