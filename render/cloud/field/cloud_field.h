@@ -8,16 +8,20 @@
 #include "render/cloud/cloud_light.h"
 #include "render/cloud/cloud_source.h"
 #include "render/cloud/field/coverage.h"
+#include "render/cloud/field/inside_light.h"
 #include "render/cloud/field/kernels.h"
 #include "render/cloud/field/noise.h"
 #include "render/scene.h"
 
 namespace skyig::render::cloud::field {
 
-/// What does not change from frame to frame: noise, and the coverage measured on it. Made once, shared.
+/// What does not change from frame to frame: noise, the coverage measured on it, light
+/// inside. Made once, shared.
 struct Matrix {
     Noise noise;
     Coverage coverage{noise};
+    InsideLight water{kWaterG};
+    InsideLight ice{kIceG};
 };
 
 class CloudField final : public CloudSource {

@@ -48,7 +48,7 @@ float mean_density(const Column& column, float threshold, float edge) {
 float threshold_of(const Column& column, float edge, float part) {
     float high = *std::max_element(column.begin(), column.end());
     float low = high - edge - 2.0F;
-    for (int step = 0; step < 16; ++step) {
+    for (int step = 0; step < 12; ++step) {
         const float middle = 0.5F * (low + high);
         (mean_density(column, middle, edge) > part ? low : high) = middle;
     }

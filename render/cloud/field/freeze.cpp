@@ -48,18 +48,35 @@ void grow(const CloudLayer& cloud, Shape& shape) {
     shape.lift[2] *= severity;
 }
 
+// Coverage moves the sum's mean from where no tile brings it over 0 to where none brings it below.
+void tell(const CloudLayer& cloud, Layer& layer) {
+    double weights = 0.0;
+    for (const CloudLook::Tile& tile : cloud.look->tiles)
+        weights += std::abs(tile.weight);
+    const double mean = cloud.look->density_offset + (cloud.coverage - 0.5) * weights;
+    layer.threshold = f32(-mean);
+    layer.dry = f32(std::max(mean, 0.0) + weights);
+    layer.self_shadow = f32(std::max(cloud.look->self_shadow, 0.0));
+}
+
 Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnchor& anchor) {
     const Genus& genus = genus_of(cloud.genus);
-    Layer layer{};
-    layer.shape = shape_of(matrix.noise, cloud.genus,
-                           {anchor.eye_m.x - cloud.drift_m.x, anchor.eye_m.y - cloud.drift_m.y, cloud.age_s,
-                            cloud.seed});
-    grow(cloud, layer.shape);
-    layer.sheet = cloud.model == CloudModel::kLayer;
+    const ShapePlace place{anchor.eye_m.x - cloud.drift_m.x, anchor.eye_m.y - cloud.drift_m.y, cloud.age_s,
+                           cloud.seed};
     const double extinction = extinction_of(cloud);
-    const double depth = extinction * cloud.thickness_m;
-    layer.threshold = matrix.coverage.threshold(cloud.genus, cloud.coverage, depth);
-    layer.dry = matrix.coverage.threshold(cloud.genus, 0.0, depth) - layer.threshold + 0.5F;
+    Layer layer{};
+    layer.sheet = cloud.model == CloudModel::kLayer;
+    if (layer.sheet && cloud.look) {
+        layer.shape = shape_of(matrix.noise, *cloud.look, place);
+        tell(cloud, layer);
+    } else {
+        const double depth = extinction * cloud.thickness_m;
+        layer.shape = shape_of(matrix.noise, cloud.genus, place);
+        grow(cloud, layer.shape);
+        layer.threshold = matrix.coverage.threshold(cloud.genus, cloud.coverage, depth);
+        layer.dry = matrix.coverage.threshold(cloud.genus, 0.0, depth) - layer.threshold + 0.5F;
+        layer.self_shadow = 1.0F;
+    }
     layer.base_m = f32(cloud.base_m);
     layer.thickness_m = f32(cloud.thickness_m);
     layer.bottom_band_m = f32(std::max(cloud.bottom_band_m, 0.0));
@@ -68,7 +85,8 @@ Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnch
     layer.top_scud = f32(std::clamp(cloud.top_scud, 0.0, 1.0));
     layer.extinction_per_m = f32(extinction);
     layer.area = area_of(cloud);
-    layer.g = genus.g;
+    layer.g = genus.ice ? kIceG : kWaterG;
+    layer.inside = (genus.ice ? matrix.ice : matrix.water).nodes();
     return layer;
 }
 
@@ -87,20 +105,22 @@ struct Veil {
 
 // What the layer as a whole, with its gaps, leaves of light on it.
 Veil veil_of(const CloudLayer& cloud, double mu0) {
-    const Slab slab{f32(extinction_of(cloud) * cloud.thickness_m), genus_of(cloud.genus).g, 1.0F};
     // Its full depth is that of its middle only: the mean is less.
-    const SlabFluxes<float> fluxes = slab_fluxes(Slab{0.6F * slab.optical_depth, slab.g, 1.0F}, f32(mu0));
+    constexpr double kMean = 0.6;
+    const Slab slab{f32(kMean * extinction_of(cloud) * cloud.thickness_m),
+                    genus_of(cloud.genus).ice ? kIceG : kWaterG, 1.0F};
+    const SlabFluxes<float> fluxes = slab_fluxes(slab, f32(mu0));
     const auto part = f32(std::min(cloud.coverage, 1.0));
     // Weather that is elsewhere dims nothing here.
     const float here = cloud.area ? 0.0F : part;
     return {1.0F - here * (1.0F - fluxes.transmitted), here * fluxes.reflected};
 }
 
-Shine shine_of(const glm::vec3& base, const glm::vec3& top, float part) {
+Shine shine_of(const glm::vec3& base, const glm::vec3& top, const glm::vec3& part) {
     Shine shine{};
     for (int c = 0; c < 3; ++c) {
-        shine.base[c] = part * base[c];
-        shine.gain[c] = part * (top[c] - base[c]);
+        shine.base[c] = part[c] * base[c];
+        shine.gain[c] = part[c] * (top[c] - base[c]);
     }
     return shine;
 }
@@ -140,7 +160,7 @@ void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& 
             own.direction[c] = beam.direction_enu[c];
         const double mu0 = std::max(0.05, std::abs(static_cast<double>(beam.direction_enu.z)));
         own.lx = shine_of(base.beam_lx[s], top.beam_lx[s],
-                          left_over(sky, layer, mu0, beam.direction_enu.z >= 0.0F));
+                          glm::vec3(left_over(sky, layer, mu0, beam.direction_enu.z >= 0.0F)));
     }
     // A source that is a ten-thousandth of the other is not worth its looks.
     constexpr float kFaint = 1e-4F;
@@ -158,7 +178,7 @@ void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& 
 void shine_evenly(const Sky& sky, const CloudLight::At& base, const CloudLight::At& top, const Known& own,
                   Layer& layer) {
     const float from_sky = left_over(sky, layer, kDiffuseMu, true);
-    layer.above_cd_m2 = shine_of(base.above_cd_m2, top.above_cd_m2, from_sky);
+    layer.above_cd_m2 = shine_of(base.above_cd_m2, top.above_cd_m2, glm::vec3(from_sky));
     glm::vec3 down = std::numbers::pi_v<float> * base.above_cd_m2 * from_sky;
     for (const LayerBeam& beam : layer.beams) {
         if (beam.lit && beam.direction[2] > 0.0F)
@@ -172,7 +192,23 @@ void shine_evenly(const Sky& sky, const CloudLight::At& base, const CloudLight::
         if (part > 0.0F)
             up += part * veil_of(*sky.layers[k].cloud, kDiffuseMu).returned * down / std::numbers::pi_v<float>;
     }
-    layer.below_cd_m2 = shine_of(up, up, 1.0F);
+    layer.below_cd_m2 = shine_of(up, up, glm::vec3(1.0F));
+}
+
+void tint(Shine& shine, const glm::vec3& colour) {
+    for (int c = 0; c < 3; ++c) {
+        shine.base[c] *= colour[c];
+        shine.gain[c] *= colour[c];
+    }
+}
+
+void colour_layer(const CloudLayer& cloud, Layer& layer) {
+    if (!layer.sheet || !cloud.look) return;
+    const glm::vec3 colour = glm::max(glm::vec3(cloud.look->colour), glm::vec3(0.0F));
+    for (LayerBeam& beam : layer.beams)
+        tint(beam.lx, colour);
+    tint(layer.above_cd_m2, colour);
+    tint(layer.below_cd_m2, colour);
 }
 
 void shine_on(Sky& sky, const CloudLight& light) {
@@ -182,6 +218,7 @@ void shine_on(Sky& sky, const CloudLight& light) {
         const CloudLight::At top = light.at(static_cast<double>(upper(layer)));
         shine_beams(sky, light, base, top, layer);
         shine_evenly(sky, base, top, sky.layers[k], layer);
+        colour_layer(*sky.layers[k].cloud, layer);
     }
 }
 

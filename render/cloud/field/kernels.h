@@ -58,9 +58,21 @@ struct LayerBeam {
 
 inline constexpr int kBeams = 2;
 
+/// InsideTable's axes (inside_light.h), the last one fastest; two entries a node.
+inline constexpr int kSlabViews = 11;
+inline constexpr int kSlabSources = 7;
+inline constexpr int kSlabDepths = 10;
+inline constexpr int kSlabPlaces = 9;
+struct SlabNodes {
+    const unsigned* entries;
+    float low[4];
+    float step[4];
+};
+
 struct Layer {
     Shape shape;
     bool sheet;        // seed 001: one look, no march
+    float self_shadow;  // of a sheet
     float threshold;
     float dry;         // added to the threshold where the area ends
     float base_m;
@@ -72,6 +84,7 @@ struct Layer {
     float extinction_per_m;
     Area area;
     float g;
+    SlabNodes inside;
     LayerBeam beams[kBeams];
     Shine above_cd_m2;
     Shine below_cd_m2;
@@ -148,7 +161,7 @@ struct Kernels {
     /// Fills the values of a shape whose layer is this thick, all octaves at full weight.
     void (*values)(const Shape& shape, float thickness_m, Points& points);
     /// CloudScatter::Ray::source of clouds of this g that do not absorb.
-    void (*sources)(float g, float mu0, float mu_view, float cos_scatter, Sources& sources);
+    void (*sources)(const SlabNodes& inside, float g, float mu0, float mu_view, float cos_scatter, Sources& sources);
 };
 
 /// The fastest variant that this processor runs.

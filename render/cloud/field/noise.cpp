@@ -39,8 +39,10 @@ float perlin(const Grid& grid, float x, float y) {
     const float fx = x - static_cast<float>(ix);
     const float fy = y - static_cast<float>(iy);
     const auto corner = [&](int dx, int dy) {
-        const float angle = 6.2831853F * unit(bits_of(wrap(ix + dx, grid.nx), wrap(iy + dy, grid.ny), 0, grid.seed));
-        return std::cos(angle) * (fx - static_cast<float>(dx)) + std::sin(angle) * (fy - static_cast<float>(dy));
+        const std::uint32_t bits = bits_of(wrap(ix + dx, grid.nx), wrap(iy + dy, grid.ny), 0, grid.seed);
+        const float gx = 2.4F * (unit(bits) - 0.5F);
+        const float gy = 2.4F * (unit(bits * 0x9E3779B9U) - 0.5F);
+        return gx * (fx - static_cast<float>(dx)) + gy * (fy - static_cast<float>(dy));
     };
     const float low = glm::mix(corner(0, 0), corner(1, 0), eased(fx));
     const float high = glm::mix(corner(0, 1), corner(1, 1), eased(fx));

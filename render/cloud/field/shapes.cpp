@@ -1,5 +1,6 @@
 #include "render/cloud/field/shapes.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace skyig::render::cloud::field {
@@ -23,11 +24,11 @@ constexpr Genus cumulus() {
     g.fines = {{{turned(131, 62), 800.0F, 0.26F}, {turned(523, 286), 200.0F, 0.10F}}};
     g.lift = {0.10F, 0.40F, 0.0F};
     g.edge = 0.34F;
-    g.reach_m = 350.0F;
+    g.reach_m = 310.0F;
     g.step_m = 12.0F;
     g.stride_m = 150.0F;
     g.extinction_per_m = 0.05F;
-    g.usual_thickness_m = 1000.0F;
+    g.usual_thickness_m = 2000.0F;
     return g;
 }
 
@@ -41,7 +42,7 @@ constexpr Genus cumulonimbus() {
     // It tapers, then spreads into the anvil.
     g.lift = {0.35F, 0.50F, -0.75F};
     g.edge = 0.30F;
-    g.reach_m = 700.0F;
+    g.reach_m = 750.0F;
     g.step_m = 20.0F;
     g.stride_m = 300.0F;
     g.extinction_per_m = 0.06F;
@@ -58,7 +59,7 @@ constexpr Genus stratocumulus() {
     g.fines = {{{turned(163, 71), 400.0F, 0.34F}, {turned(547, 230), 160.0F, 0.12F}}};
     g.lift = {0.0F, 0.30F, 0.0F};
     g.edge = 0.45F;
-    g.reach_m = 300.0F;
+    g.reach_m = 190.0F;
     g.step_m = 12.0F;
     g.stride_m = 150.0F;
     g.extinction_per_m = 0.045F;
@@ -75,7 +76,7 @@ constexpr Genus smooth_sheet(int main, float extinction_per_m, float thickness_m
     g.fines = {{{turned(89, 37), 700.0F, 0.12F}, {}}};
     g.lift = {0.0F, 0.0F, 0.0F};
     g.edge = 0.7F;
-    g.reach_m = 300.0F;
+    g.reach_m = 700.0F;
     g.step_m = 16.0F;
     g.stride_m = 250.0F;
     g.extinction_per_m = extinction_per_m;
@@ -92,7 +93,7 @@ constexpr Genus altocumulus() {
     g.fines = {{{turned(353, 131), 250.0F, 0.20F}, {}}};
     g.lift = {0.0F, 0.30F, 0.0F};
     g.edge = 0.6F;
-    g.reach_m = 120.0F;
+    g.reach_m = 80.0F;
     g.step_m = 14.0F;
     g.stride_m = 60.0F;
     g.extinction_per_m = 0.015F;
@@ -109,12 +110,12 @@ constexpr Genus cirrus() {
     g.fines = {{{drawn(23, 7, 3), 1500.0F, 0.10F}, {}}};
     g.lift = {0.0F, 0.20F, 0.0F};
     g.edge = 1.1F;
-    g.reach_m = 500.0F;
+    g.reach_m = 150.0F;
     g.step_m = 50.0F;
     g.stride_m = 250.0F;
     g.extinction_per_m = 0.0010F;
     g.usual_thickness_m = 1000.0F;
-    g.g = 0.78F;
+    g.ice = true;
     g.change_m_s = 2.0F;
     return g;
 }
@@ -130,11 +131,11 @@ constexpr Genus cirrostratus() {
 constexpr Genus cirrocumulus() {
     Genus g = altocumulus();
     g.flats[1] = {Sheet::kCells, {29, 11, -17, 45}, 1.0F};
-    g.reach_m = 70.0F;
+    g.reach_m = 50.0F;
     g.stride_m = 40.0F;
     g.extinction_per_m = 0.003F;
     g.usual_thickness_m = 250.0F;
-    g.g = 0.78F;
+    g.ice = true;
     return g;
 }
 
@@ -222,6 +223,22 @@ Shape shape_of(const Noise& noise, CloudGenus which, const ShapePlace& place) no
         shape.lift[i] = genus.lift[i];
     shape.edge = genus.edge;
     shape.reach_m = genus.reach_m;
+    return shape;
+}
+
+Shape shape_of(const Noise& noise, const CloudLook& look, const ShapePlace& place) noexcept {
+    Shape shape{};
+    for (std::size_t k = 0; k < look.tiles.size(); ++k) {
+        const CloudLook::Tile& tile = look.tiles[k];
+        const int times = std::clamp(tile.times, 1, 4096);
+        const GenusFlat flat{Sheet::kSmooth, {times, 0, 0, times}, static_cast<float>(tile.weight)};
+        shape.flats[k] = flat_of(noise, flat,
+                                 lay(flat.turn, Noise::kSheetSize, place.east_m - tile.scroll_m_s.x * place.age_s,
+                                     place.north_m - tile.scroll_m_s.y * place.age_s, place.seed,
+                                     static_cast<std::uint32_t>(k)));
+    }
+    shape.edge = 1.0F;
+    shape.reach_m = 100.0F;
     return shape;
 }
 

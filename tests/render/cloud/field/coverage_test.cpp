@@ -13,7 +13,7 @@ struct Seen {
 
 // From 500 m over the layer, at places spread over the world by letting it drift.
 Seen straight_down(CloudLayer layer, int places) {
-    const std::vector<CloudRay> rays = sphere_of_rays(2, 8, -0.5 * kPi, -0.5 * kPi + 0.15);
+    const std::vector<CloudRay> rays = sphere_of_rays(2, 4, -0.5 * kPi, -0.5 * kPi + 0.15);
     CloudField field(matrix());
     const CloudLight dark;
     Seen sum;
@@ -50,7 +50,7 @@ TEST(Coverage, IsWhatIsAskedFor) {
         for (const double asked : {0.1, 0.3, 0.5, 0.7, 0.9}) {
             CloudLayer layer = layer_of(c.genus, 1000.0, c.thickness_m, asked);
             layer.extinction_per_m = c.extinction_per_m;
-            const Seen measured = straight_down(layer, 600);
+            const Seen measured = straight_down(layer, 1000);
             std::printf("%-10s asked %.0f %%: hidden %5.1f %%, mean opacity %5.1f %%\n", c.name, 100.0 * asked,
                         100.0 * measured.hidden, 100.0 * measured.opacity);
             worst = std::max(worst, std::abs(measured.hidden - asked));
