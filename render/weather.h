@@ -44,7 +44,8 @@ struct WeatherArea {
     friend bool operator==(const WeatherArea&, const WeatherArea&) = default;
 };
 
-/// How the model kLayer draws a layer, in the terms of its seed: density is the sum of scrolled tiles of noise.
+/// How the model kLayer draws a layer, in the terms of its seed: density is the sum of scrolled tiles of
+/// noise.
 struct CloudLook {
     struct Tile {
         /// How many fit along 131,072 m, east; 1..4096. At 1 a tile's finest feature is 3 km, at 32 100 m.

@@ -87,7 +87,8 @@ Coverage::Coverage(const Noise& noise) {
 }
 
 float Coverage::threshold(CloudGenus genus, double coverage, double optical_depth) const noexcept {
-    const auto& curves = curves_[static_cast<std::size_t>(genus) < kGenera ? static_cast<std::size_t>(genus) : 0];
+    const auto& curves =
+        curves_[static_cast<std::size_t>(genus) < kGenera ? static_cast<std::size_t>(genus) : 0];
     const double place = std::clamp(coverage, 0.0, 1.0) * static_cast<double>(kParts);
     const std::size_t low = std::min(static_cast<std::size_t>(place), kParts - 1);
     const auto part = static_cast<float>(place - static_cast<double>(low));

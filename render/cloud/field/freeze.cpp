@@ -12,7 +12,9 @@
 namespace skyig::render::cloud::field {
 namespace {
 
-float f32(double x) { return static_cast<float>(x); }
+float f32(double x) {
+    return static_cast<float>(x);
+}
 
 bool is_cloud(const CloudLayer& cloud) {
     if (cloud.model == CloudModel::kImpostor) return false;
@@ -41,11 +43,13 @@ Area area_of(const CloudLayer& cloud) {
             f32(std::max(told.perimeter_m, 0.0))};
 }
 
-// A storm grows its anvil with its severity.
+// A storm grows from a heap to an anvil with its severity.
 void grow(const CloudLayer& cloud, Shape& shape) {
     if (cloud.genus != CloudGenus::kCumulonimbus) return;
-    const auto severity = f32(std::clamp(cloud.severity, 0.0, 1.0));
-    shape.lift[2] *= severity;
+    constexpr std::array<float, 3> kHeap{0.30F, 0.40F, 0.0F};
+    const auto grown = f32(std::clamp(cloud.severity, 0.0, 1.0));
+    for (std::size_t i = 0; i < kHeap.size(); ++i)
+        shape.lift[i] = glm::mix(kHeap[i], shape.lift[i], grown);
 }
 
 // Coverage moves the sum's mean from where no tile brings it over 0 to where none brings it below.
@@ -65,8 +69,10 @@ Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnch
                            cloud.seed};
     const double extinction = extinction_of(cloud);
     Layer layer{};
-    layer.sheet = cloud.model == CloudModel::kLayer;
-    if (layer.sheet && cloud.look) {
+    // Ice is thin: a look shows its threads as well as a march, and sharper.
+    layer.slab_lit = cloud.model == CloudModel::kAuto && genus.ice;
+    layer.sheet = layer.slab_lit || cloud.model == CloudModel::kLayer;
+    if (cloud.model == CloudModel::kLayer && cloud.look) {
         layer.shape = shape_of(matrix.noise, *cloud.look, place);
         tell(cloud, layer);
     } else {
@@ -90,7 +96,9 @@ Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnch
     return layer;
 }
 
-float upper(const Layer& layer) { return layer.base_m + layer.thickness_m; }
+float upper(const Layer& layer) {
+    return layer.base_m + layer.thickness_m;
+}
 
 // How much of `layer` lies under `other`: 0 at the same height, 1 where it lies wholly below.
 float part_under(const Layer& layer, const Layer& other) {
@@ -148,8 +156,8 @@ float left_over(const Sky& sky, const Layer& layer, double mu0, bool above) {
 
 constexpr double kDiffuseMu = 0.6;
 
-void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& base, const CloudLight::At& top,
-                 Layer& layer) {
+void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& base,
+                 const CloudLight::At& top, Layer& layer) {
     for (std::size_t s = 0; s < CloudLight::kSources; ++s) {
         const Beam& beam = light.beams[s];
         LayerBeam& own = layer.beams[s];
@@ -165,7 +173,8 @@ void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& 
     // A source that is a ten-thousandth of the other is not worth its looks.
     constexpr float kFaint = 1e-4F;
     const auto strength = [&](std::size_t s) {
-        return layer.beams[s].lit ? layer.beams[s].lx.base[1] + std::max(layer.beams[s].lx.gain[1], 0.0F) : 0.0F;
+        return layer.beams[s].lit ? layer.beams[s].lx.base[1] + std::max(layer.beams[s].lx.gain[1], 0.0F)
+                                  : 0.0F;
     };
     const float sun = strength(CloudLight::kSun);
     const float moon = strength(CloudLight::kMoon);
@@ -173,8 +182,8 @@ void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& 
     if (sun < kFaint * moon) layer.beams[CloudLight::kSun].lit = false;
 }
 
-// Even light: the sky through what lies above, and from below what ground and clouds there throw up of what the
-// clouds let through.
+// Even light: the sky through what lies above, and from below what ground and clouds there throw up of what
+// the clouds let through.
 void shine_evenly(const Sky& sky, const CloudLight::At& base, const CloudLight::At& top, const Known& own,
                   Layer& layer) {
     const float from_sky = left_over(sky, layer, kDiffuseMu, true);
@@ -190,7 +199,8 @@ void shine_evenly(const Sky& sky, const CloudLight::At& base, const CloudLight::
     for (std::size_t k = 0; k < sky.count; ++k) {
         const float part = part_under(sky.layers[k].layer, layer);
         if (part > 0.0F)
-            up += part * veil_of(*sky.layers[k].cloud, kDiffuseMu).returned * down / std::numbers::pi_v<float>;
+            up +=
+                part * veil_of(*sky.layers[k].cloud, kDiffuseMu).returned * down / std::numbers::pi_v<float>;
     }
     layer.below_cd_m2 = shine_of(up, up, glm::vec3(1.0F));
 }
@@ -203,7 +213,7 @@ void tint(Shine& shine, const glm::vec3& colour) {
 }
 
 void colour_layer(const CloudLayer& cloud, Layer& layer) {
-    if (!layer.sheet || !cloud.look) return;
+    if (cloud.model != CloudModel::kLayer || !cloud.look) return;
     const glm::vec3 colour = glm::max(glm::vec3(cloud.look->colour), glm::vec3(0.0F));
     for (LayerBeam& beam : layer.beams)
         tint(beam.lx, colour);
@@ -222,8 +232,12 @@ void shine_on(Sky& sky, const CloudLight& light) {
     }
 }
 
-float low_of(const Layer& layer) { return layer.base_m - layer.bottom_band_m; }
-float high_of(const Layer& layer) { return upper(layer) + layer.top_band_m; }
+float low_of(const Layer& layer) {
+    return layer.base_m - layer.bottom_band_m;
+}
+float high_of(const Layer& layer) {
+    return upper(layer) + layer.top_band_m;
+}
 
 // A step is this part of the way to it where it is neither shortest nor longest.
 constexpr float kRate = 0.005F;
@@ -257,13 +271,15 @@ void stack(const Sky& sky, Field& field) {
         const Layer& layer = order[k]->layer;
         const Genus& genus = genus_of(order[k]->cloud->genus);
         const Cells own = cells_of(std::min(genus.step_m, 0.1F * layer.thickness_m), genus.stride_m);
-        const bool joins = field.deck_count > 0 && !layer.sheet &&
-                           low_of(layer) < field.decks[field.deck_count - 1].high_m;
-        if (!joins) field.decks[field.deck_count++] = {static_cast<int>(k), 0, low_of(layer), high_of(layer), own};
+        const bool joins =
+            field.deck_count > 0 && !layer.sheet && low_of(layer) < field.decks[field.deck_count - 1].high_m;
+        if (!joins)
+            field.decks[field.deck_count++] = {static_cast<int>(k), 0, low_of(layer), high_of(layer), own};
         Deck& deck = field.decks[field.deck_count - 1];
         ++deck.count;
         deck.high_m = std::max(deck.high_m, high_of(layer));
-        deck.cells = cells_of(std::min(deck.cells.least_m, own.least_m), std::min(deck.cells.most_m, own.most_m));
+        deck.cells =
+            cells_of(std::min(deck.cells.least_m, own.least_m), std::min(deck.cells.most_m, own.most_m));
         field.layers[k] = layer;
     }
     std::sort(field.decks, field.decks + field.deck_count, [](const Deck& a, const Deck& b) {

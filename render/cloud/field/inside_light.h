@@ -8,8 +8,8 @@
 
 namespace skyig::render::cloud::field {
 
-/// InsideTable (slab_table.h) for clouds of one asymmetry: each node's four terms as 16-bit parts of what each
-/// of them spans (error below 1e-5 of that), two an entry.
+/// InsideTable (slab_table.h) for clouds of one asymmetry: each node's four terms as 16-bit parts of what
+/// each of them spans (error below 1e-5 of that), two an entry.
 class InsideLight {
   public:
     explicit InsideLight(float g);

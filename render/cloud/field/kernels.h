@@ -1,5 +1,5 @@
-// The march through the cloud field, compiled once per instruction set and chosen at run time. Plain data only:
-// a type with inline functions would let the linker mix the instruction sets.
+// The march through the cloud field, compiled once per instruction set and chosen at run time. Plain data
+// only: a type with inline functions would let the linker mix the instruction sets.
 #pragma once
 
 namespace skyig::render::cloud::field {
@@ -10,7 +10,7 @@ struct Flat {
     float turn[4];  // xx, xy, yx, yy; texels a metre
     float at[2];    // of the eye, texels
     float weight;
-    float wave_m;   // its finest feature
+    float wave_m;  // its finest feature
 };
 
 /// One look-up in the solid tile.
@@ -71,10 +71,11 @@ struct SlabNodes {
 
 struct Layer {
     Shape shape;
-    bool sheet;        // seed 001: one look, no march
+    bool sheet;         // seed 001: one look, no march
+    bool slab_lit;      // a sheet in the light of the slab models, not of the seed
     float self_shadow;  // of a sheet
     float threshold;
-    float dry;         // added to the threshold where the area ends
+    float dry;  // added to the threshold where the area ends
     float base_m;
     float thickness_m;
     float bottom_band_m;
@@ -92,8 +93,8 @@ struct Layer {
 
 inline constexpr int kMostLayers = 16;
 
-/// Lengths of the cells that the way from the eye is cut into: least_m up to near_m, where cell `near` begins;
-/// from there rate times the way, up to far_m and cell `far`; then most_m.
+/// Lengths of the cells that the way from the eye is cut into: least_m up to near_m, where cell `near`
+/// begins; from there rate times the way, up to far_m and cell `far`; then most_m.
 struct Cells {
     float least_m, rate, most_m;
     float near_m, near;
@@ -110,9 +111,9 @@ struct Deck {
 };
 
 struct Field {
-    float eye_m;      // height
-    float ground_m;   // height at which rays end
-    float closing;    // of SeaAnchor
+    float eye_m;     // height
+    float ground_m;  // height at which rays end
+    float closing;   // of SeaAnchor
     Layer layers[kMostLayers];
     Deck decks[kMostLayers];  // by height
     int deck_count;
@@ -161,7 +162,8 @@ struct Kernels {
     /// Fills the values of a shape whose layer is this thick, all octaves at full weight.
     void (*values)(const Shape& shape, float thickness_m, Points& points);
     /// CloudScatter::Ray::source of clouds of this g that do not absorb.
-    void (*sources)(const SlabNodes& inside, float g, float mu0, float mu_view, float cos_scatter, Sources& sources);
+    void (*sources)(const SlabNodes& inside, float g, float mu0, float mu_view, float cos_scatter,
+                    Sources& sources);
 };
 
 /// The fastest variant that this processor runs.

@@ -7,9 +7,13 @@ namespace skyig::render::cloud::field {
 namespace {
 
 // A tile that fits in `times` times along the world, turned by the angle whose tangent is about a third.
-constexpr Turn turned(int main, int side) { return {main, side, -side, main}; }
+constexpr Turn turned(int main, int side) {
+    return {main, side, -side, main};
+}
 // The same, drawn out along its first axis.
-constexpr Turn drawn(int main, int side, int factor) { return {main, side, -side * factor, main * factor}; }
+constexpr Turn drawn(int main, int side, int factor) {
+    return {main, side, -side * factor, main * factor};
+}
 
 // The tiles' finest features are these parts of them.
 constexpr double kFlatWave = 1.0 / 40.0;
@@ -34,13 +38,13 @@ constexpr Genus cumulus() {
 
 constexpr Genus cumulonimbus() {
     Genus g;
-    g.flats = {{{Sheet::kSmooth, turned(1, 1), 0.45F},
-                {Sheet::kPuffs, turned(3, 1), 1.0F},
-                {Sheet::kPuffs, turned(11, -4), 0.16F}}};
+    g.flats = {{{Sheet::kSmooth, turned(1, 1), 0.50F},
+                {Sheet::kPuffs, turned(2, 1), 1.0F},
+                {Sheet::kPuffs, turned(9, -4), 0.16F}}};
     g.push = {0.05F, 0.03F};
-    g.fines = {{{turned(19, 8), 6000.0F, 0.36F}, {turned(97, 40), 1300.0F, 0.14F}}};
-    // It tapers, then spreads into the anvil.
-    g.lift = {0.35F, 0.50F, -0.75F};
+    g.fines = {{{turned(23, 9), 5000.0F, 0.26F}, {turned(97, 40), 1300.0F, 0.12F}}};
+    // Full grown: a trunk, and the anvil over it.
+    g.lift = {2.2F, -5.2F, 3.3F};
     g.edge = 0.30F;
     g.reach_m = 750.0F;
     g.step_m = 20.0F;
@@ -103,13 +107,13 @@ constexpr Genus altocumulus() {
 
 constexpr Genus cirrus() {
     Genus g;
-    g.flats = {{{Sheet::kSmooth, turned(3, 1), 0.60F},
-                {Sheet::kFibres, turned(5, 2), 1.0F},
-                {Sheet::kFibres, turned(17, 6), 0.6F}}};
+    g.flats = {{{Sheet::kSmooth, turned(3, 1), 0.80F},
+                {Sheet::kFibres, turned(4, 1), 1.0F},
+                {Sheet::kFibres, turned(15, 4), 0.8F}}};
     g.push = {0.10F, 0.16F};
-    g.fines = {{{drawn(23, 7, 3), 1500.0F, 0.10F}, {}}};
+    g.fines = {{{drawn(23, 7, 3), 1500.0F, 0.08F}, {}}};
     g.lift = {0.0F, 0.20F, 0.0F};
-    g.edge = 1.1F;
+    g.edge = 1.0F;
     g.reach_m = 150.0F;
     g.step_m = 50.0F;
     g.stride_m = 250.0F;
@@ -139,10 +143,17 @@ constexpr Genus cirrocumulus() {
     return g;
 }
 
-constexpr std::array<Genus, kGenera> kGenus{
-    smooth_sheet(9, 0.05F, 300.0F),   altocumulus(),     smooth_sheet(5, 0.012F, 1500.0F), cirrocumulus(),
-    cirrostratus(),                   cirrus(),          cumulonimbus(),                   cumulus(),
-    smooth_sheet(5, 0.04F, 3000.0F), stratocumulus(),   smooth_sheet(9, 0.05F, 300.0F)};
+constexpr std::array<Genus, kGenera> kGenus{smooth_sheet(9, 0.05F, 300.0F),
+                                            altocumulus(),
+                                            smooth_sheet(5, 0.012F, 1500.0F),
+                                            cirrocumulus(),
+                                            cirrostratus(),
+                                            cirrus(),
+                                            cumulonimbus(),
+                                            cumulus(),
+                                            smooth_sheet(5, 0.04F, 3000.0F),
+                                            stratocumulus(),
+                                            smooth_sheet(9, 0.05F, 300.0F)};
 
 // 0..1, of a layer's seed and an octave.
 double chance(std::uint32_t seed, std::uint32_t octave) {
@@ -158,11 +169,13 @@ struct Laid {
 };
 
 // In double, for the eye may be far from where the axes begin; only the place inside the tile is kept.
-Laid lay(const Turn& turn, double size, double east_m, double north_m, std::uint32_t seed, std::uint32_t octave) {
+Laid lay(const Turn& turn, double size, double east_m, double north_m, std::uint32_t seed,
+         std::uint32_t octave) {
     const double scale = size / kWorld_m;
     const auto place = [&](int x, int y, std::uint32_t axis) {
-        const double tiles = (x * std::remainder(east_m, kWorld_m) + y * std::remainder(north_m, kWorld_m)) /
-                                 kWorld_m + chance(seed, 2 * octave + axis);
+        const double tiles =
+            (x * std::remainder(east_m, kWorld_m) + y * std::remainder(north_m, kWorld_m)) / kWorld_m +
+            chance(seed, 2 * octave + axis);
         return static_cast<float>((tiles - std::floor(tiles)) * size);
     };
     return {{static_cast<float>(turn.xx * scale), static_cast<float>(turn.xy * scale),
@@ -170,7 +183,9 @@ Laid lay(const Turn& turn, double size, double east_m, double north_m, std::uint
             {place(turn.xx, turn.xy, 0), place(turn.yx, turn.yy, 1)}};
 }
 
-double tile_m(const Turn& turn) { return kWorld_m / std::hypot(turn.yx, turn.yy); }
+double tile_m(const Turn& turn) {
+    return kWorld_m / std::hypot(turn.yx, turn.yy);
+}
 
 Flat flat_of(const Noise& noise, const GenusFlat& told, const Laid& laid) {
     return {noise.sheet(told.sheet).data(),
@@ -213,8 +228,8 @@ Shape shape_of(const Noise& noise, CloudGenus which, const ShapePlace& place) no
     }
     for (std::size_t k = 0; k < genus.fines.size(); ++k) {
         shape.fines[k] = fine_of(noise, genus.fines[k],
-                                 lay(genus.fines[k].turn, Noise::kBlockSize, place.east_m, place.north_m, seed,
-                                     static_cast<std::uint32_t>(8 + k)),
+                                 lay(genus.fines[k].turn, Noise::kBlockSize, place.east_m, place.north_m,
+                                     seed, static_cast<std::uint32_t>(8 + k)),
                                  moved_m);
     }
     for (std::size_t i = 0; i < 2; ++i)
@@ -232,10 +247,10 @@ Shape shape_of(const Noise& noise, const CloudLook& look, const ShapePlace& plac
         const CloudLook::Tile& tile = look.tiles[k];
         const int times = std::clamp(tile.times, 1, 4096);
         const GenusFlat flat{Sheet::kSmooth, {times, 0, 0, times}, static_cast<float>(tile.weight)};
-        shape.flats[k] = flat_of(noise, flat,
-                                 lay(flat.turn, Noise::kSheetSize, place.east_m - tile.scroll_m_s.x * place.age_s,
-                                     place.north_m - tile.scroll_m_s.y * place.age_s, place.seed,
-                                     static_cast<std::uint32_t>(k)));
+        shape.flats[k] = flat_of(
+            noise, flat,
+            lay(flat.turn, Noise::kSheetSize, place.east_m - tile.scroll_m_s.x * place.age_s,
+                place.north_m - tile.scroll_m_s.y * place.age_s, place.seed, static_cast<std::uint32_t>(k)));
     }
     shape.edge = 1.0F;
     shape.reach_m = 100.0F;

@@ -24,7 +24,8 @@ TEST(CloudField, BaseIsWhereItIsSet) {
         const CloudLayer layer = layer_of(genus, 300.0, 600.0, 1.0);
         double found_m = 0.0;
         for (double eye_m = 280.0; eye_m < 330.0 && found_m == 0.0; eye_m += 0.5) {
-            const CloudSample ahead = seen(scene_of({layer}, eye_m), plain_light(), {ray_at(0.0, 1.0)}, {0.0F, 400.0F})[0];
+            const CloudSample ahead =
+                seen(scene_of({layer}, eye_m), plain_light(), {ray_at(0.0, 1.0)}, {0.0F, 400.0F})[0];
             if (ahead.transmittance < 0.5F) found_m = eye_m;
         }
         std::printf("genus %d: base set 300 m, met at %.1f m\n", static_cast<int>(genus), found_m);
@@ -101,7 +102,8 @@ TEST(CloudField, LightInLanesIsTheSlabModels) {
                     sources.above[i] = 0.5F * sources.towards[i];
                     sources.below[i] = static_cast<float>(i % 9);
                 }
-                variant->sources((g < 0.8F ? matrix()->ice : matrix()->water).nodes(), g, mu0, 0.3F, 0.2F, sources);
+                variant->sources((g < 0.8F ? matrix()->ice : matrix()->water).nodes(), g, mu0, 0.3F, 0.2F,
+                                 sources);
                 for (int i = 0; i < kRays; ++i) {
                     const float exact = ray.source({sources.towards[i], sources.above[i], sources.below[i]});
                     largest = std::max(largest, static_cast<double>(std::abs(sources.sent[i] - exact)) /
@@ -143,7 +145,8 @@ TEST(CloudField, ASheetIsDrawnAsItIsTold) {
         glm::dvec4 sum{0.0};
         for (const CloudSample& sample : seen(scene_of({layer}, 2.0), plain_light(), rays)) {
             EXPECT_TRUE(is_sound(sample));
-            sum += glm::dvec4(glm::dvec3(sample.light_cd_m2), 1.0 - static_cast<double>(sample.transmittance));
+            sum +=
+                glm::dvec4(glm::dvec3(sample.light_cd_m2), 1.0 - static_cast<double>(sample.transmittance));
         }
         return sum / static_cast<double>(rays.size());
     };
@@ -191,11 +194,12 @@ TEST(CloudField, AMarchedSlabSendsTheModelsLight) {
             CloudRay ray;
             const double drawn = drawn_brf(depth, view, light, ray);
             const glm::vec3& source = light.beams[CloudLight::kSun].direction_enu;
-            const float told = slab_brf(SlabModel::kMarch, Slab{static_cast<float>(depth), kWaterG, 1.0F}, view.above,
-                                        source.z, std::abs(ray.direction_enu.z), glm::dot(ray.direction_enu, source));
-            std::printf("depth %.0f, sun %.0f, view %.0f/%.0f %s: %.4f, model %.4f\n", depth, view.sun_zenith_deg,
-                        view.view_zenith_deg, view.azimuth_deg, view.above ? "top" : "base", drawn,
-                        static_cast<double>(told));
+            const float told =
+                slab_brf(SlabModel::kMarch, Slab{static_cast<float>(depth), kWaterG, 1.0F}, view.above,
+                         source.z, std::abs(ray.direction_enu.z), glm::dot(ray.direction_enu, source));
+            std::printf("depth %.0f, sun %.0f, view %.0f/%.0f %s: %.4f, model %.4f\n", depth,
+                        view.sun_zenith_deg, view.view_zenith_deg, view.azimuth_deg,
+                        view.above ? "top" : "base", drawn, static_cast<double>(told));
             worst = std::max(worst, std::abs(drawn / static_cast<double>(told) - 1.0));
         }
     }
@@ -214,8 +218,8 @@ TEST(CloudField, AMarchedSlabSendsTheTrueLight) {
         View view{};
         char side = 0;
         double truth = 0.0;
-        if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%c_brf,%lf,%lf,%lf", &depth, &g, &albedo, &view.sun_zenith_deg,
-                        &side, &view.view_zenith_deg, &view.azimuth_deg, &truth) != 8)
+        if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%c_brf,%lf,%lf,%lf", &depth, &g, &albedo,
+                        &view.sun_zenith_deg, &side, &view.view_zenith_deg, &view.azimuth_deg, &truth) != 8)
             continue;
         if ((depth != 1.0 && depth != 4.0 && depth != 16.0) || albedo != 1.0 || truth < 1e-4) continue;
         view.above = side == 'R';
@@ -233,7 +237,8 @@ TEST(CloudField, AMarchedSlabSendsTheTrueLight) {
 
 TEST(CloudField, TwoMetresChangeLittle) {
     for (const double eye_m : {2.0, 12000.0}) {
-        const std::vector<CloudRay> rays = eye_m < 1000.0 ? sphere_of_rays(20, 60, 0.02, 0.6) : sphere_of_rays(20, 60, -0.6, -0.065);
+        const std::vector<CloudRay> rays =
+            eye_m < 1000.0 ? sphere_of_rays(20, 60, 0.02, 0.6) : sphere_of_rays(20, 60, -0.6, -0.065);
         const Scene here = scene_of({layer_of(CloudGenus::kCumulus, 1500.0, 900.0, 0.5)}, eye_m);
         Scene there = here;
         there.eye.height_m += 2.0;
@@ -267,8 +272,8 @@ TEST(CloudField, TellsWhatARayCosts) {
          {Case{"clear", layer_of(CloudGenus::kCumulus, 1200.0, 1000.0, 0.0), 2.0, 0.0, 1.57},
           Case{"broken Cu from below", broken, 2.0, 0.0, 1.57},
           Case{"overcast St from below", layer_of(CloudGenus::kStratus, 400.0, 400.0, 1.0), 2.0, 0.0, 1.57},
-          Case{"broken Cu from 12 km", broken, 12000.0, -1.57, -0.06}, Case{"inside Cu", broken, 1700.0, -1.0, 1.57},
-          Case{"layer of Ci", sheet, 2.0, 0.0, 1.57}}) {
+          Case{"broken Cu from 12 km", broken, 12000.0, -1.57, -0.06},
+          Case{"inside Cu", broken, 1700.0, -1.0, 1.57}, Case{"layer of Ci", sheet, 2.0, 0.0, 1.57}}) {
         const std::vector<CloudRay> rays = tiles_of_rays(c.lowest, c.highest);
         CloudField field(matrix());
         field.freeze(scene_of({c.layer}, c.eye_m), plain_light());

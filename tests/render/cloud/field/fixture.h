@@ -24,8 +24,8 @@ inline std::shared_ptr<const Matrix> matrix() {
 /// The Sun of 1000 lx at this elevation in the south, under a sky of 100 cd/m2, over ground of 50.
 inline CloudLight plain_light(double elevation_rad = 0.8) {
     CloudLight light;
-    light.beams[CloudLight::kSun] = {
-        true, glm::vec3(0.0F, static_cast<float>(-std::cos(elevation_rad)), static_cast<float>(std::sin(elevation_rad)))};
+    light.beams[CloudLight::kSun] = {true, glm::vec3(0.0F, static_cast<float>(-std::cos(elevation_rad)),
+                                                     static_cast<float>(std::sin(elevation_rad)))};
     light.beam_lx[CloudLight::kSun].fill(glm::vec3(1000.0F));
     light.above_cd_m2.fill(glm::vec3(100.0F));
     light.below_cd_m2.fill(glm::vec3(50.0F));
@@ -77,7 +77,8 @@ inline std::vector<CloudRay> sphere_of_rays(int rows, int columns, double lowest
     std::vector<CloudRay> rays;
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column)
-            rays.push_back(ray_at(lowest + (highest - lowest) * (row + 0.5) / rows, 2.0 * kPi * column / columns));
+            rays.push_back(
+                ray_at(lowest + (highest - lowest) * (row + 0.5) / rows, 2.0 * kPi * column / columns));
     }
     return rays;
 }
@@ -91,8 +92,8 @@ inline std::vector<CloudSample> seen(const CloudSource& source, const std::vecto
     return samples;
 }
 
-inline std::vector<CloudSample> seen(const Scene& scene, const CloudLight& light, const std::vector<CloudRay>& rays,
-                                     const CloudRange& range = {}) {
+inline std::vector<CloudSample> seen(const Scene& scene, const CloudLight& light,
+                                     const std::vector<CloudRay>& rays, const CloudRange& range = {}) {
     CloudField field(matrix());
     field.freeze(scene, light);
     return seen(field, rays, range);
@@ -100,9 +101,9 @@ inline std::vector<CloudSample> seen(const Scene& scene, const CloudLight& light
 
 inline bool is_sound(const CloudSample& sample) {
     const glm::vec3& light = sample.light_cd_m2;
-    return std::isfinite(light.x + light.y + light.z) && light.x >= 0.0F && light.y >= 0.0F && light.z >= 0.0F &&
-           sample.transmittance >= 0.0F && sample.transmittance <= 1.0F && std::isfinite(sample.distance_m) &&
-           sample.distance_m >= 0.0F;
+    return std::isfinite(light.x + light.y + light.z) && light.x >= 0.0F && light.y >= 0.0F &&
+           light.z >= 0.0F && sample.transmittance >= 0.0F && sample.transmittance <= 1.0F &&
+           std::isfinite(sample.distance_m) && sample.distance_m >= 0.0F;
 }
 
 inline std::vector<const Kernels*> variants() {
@@ -117,8 +118,8 @@ inline std::vector<const Kernels*> variants() {
     return found;
 }
 
-/// As eyes compare it: of two samples in front of a sky of 100 cd/m2, in 255ths of the brighter one or of white
-/// cloud in that light.
+/// As eyes compare it: of two samples in front of a sky of 100 cd/m2, in 255ths of the brighter one or of
+/// white cloud in that light.
 inline double step_255(const CloudSample& a, const CloudSample& b) {
     const float one = a.light_cd_m2.y + a.transmittance * 100.0F;
     const float other = b.light_cd_m2.y + b.transmittance * 100.0F;

@@ -32,7 +32,8 @@ TEST(CloudField, MeetsShellsAsExactlyAsFloatsCan) {
             std::fill(std::begin(parts.sine), std::end(parts.sine), static_cast<float>(shell.sine));
             variant->parts(static_cast<float>(shell.eye_m), static_cast<float>(shell.low_m),
                            static_cast<float>(shell.high_m), shell.rising, parts);
-            const double found = static_cast<double>(shell.to_far ? parts.to_m[0] : parts.to_m[0] - parts.from_m[0]);
+            const double found =
+                static_cast<double>(shell.to_far ? parts.to_m[0] : parts.to_m[0] - parts.from_m[0]);
             std::printf("%s, %s: %.3f m, exact %.3f\n", variant->name, shell.name, found, shell.expected_m);
             EXPECT_NEAR(found, shell.expected_m, 0.03 + 3e-5 * shell.expected_m) << shell.name;
         }
@@ -49,8 +50,8 @@ TEST(CloudField, IsSoundWhateverTheEyeAndTheRay) {
     CloudLayer sheet = layer_of(CloudGenus::kCirrus, 8000.0, 500.0, 0.6);
     sheet.model = CloudModel::kLayer;
     for (const double sun_rad : {0.5 * kPi, 0.3, 0.0, -0.05, -0.5 * kPi}) {
-        for (const double eye_m : {-400.0, 0.0, 1000.0, 1500.0, 2000.0, 2500.0, 3000.0, 3015.0, 3030.0, 8000.0,
-                                   12000.0, 100e3, 400e3}) {
+        for (const double eye_m : {-400.0, 0.0, 1000.0, 1500.0, 2000.0, 2500.0, 3000.0, 3015.0, 3030.0,
+                                   8000.0, 12000.0, 100e3, 400e3}) {
             const Scene scene =
                 scene_of({layer_of(CloudGenus::kCumulus, 1000.0, 1000.0, 0.5), thin, sheet}, eye_m);
             for (const CloudSample& sample : seen(scene, plain_light(sun_rad), rays))
@@ -72,7 +73,8 @@ TEST(CloudField, LayersWithoutThicknessOrSenseAreLeftOut) {
 TEST(CloudField, ThickestCloudIsDarkGreyNotBlack) {
     // Optical depth 1e4: Eddington's transmission is 1.1e-3 of 1000 lx, spread over pi.
     const Scene scene = scene_of({slab_of(1000.0, 2000.0, 1e4)}, 2.0);
-    const std::vector<CloudSample> samples = seen(scene, beam_light(0.5 * kPi), sphere_of_rays(4, 8, 0.3, 1.5));
+    const std::vector<CloudSample> samples =
+        seen(scene, beam_light(0.5 * kPi), sphere_of_rays(4, 8, 0.3, 1.5));
     for (const CloudSample& sample : samples) {
         EXPECT_TRUE(is_sound(sample));
         EXPECT_EQ(sample.transmittance < 0.006F, true);
@@ -159,7 +161,8 @@ TEST(CloudField, VariantsDrawTheSameClouds) {
         double sum = 0.0;
         for (std::size_t i = 0; i < rays.size(); ++i)
             sum += step_255(samples[i], first[i]);
-        std::printf("%s: mean difference to portable %.4f/255\n", variant->name, sum / static_cast<double>(rays.size()));
+        std::printf("%s: mean difference to portable %.4f/255\n", variant->name,
+                    sum / static_cast<double>(rays.size()));
         EXPECT_LT(sum / static_cast<double>(rays.size()), 0.1);
     }
 }
