@@ -43,13 +43,16 @@ Area area_of(const CloudLayer& cloud) {
             f32(std::max(told.perimeter_m, 0.0))};
 }
 
-// A storm grows from a heap to an anvil with its severity.
-void grow(const CloudLayer& cloud, Shape& shape) {
-    if (cloud.genus != CloudGenus::kCumulonimbus) return;
-    constexpr std::array<float, 3> kHeap{0.30F, 0.40F, 0.0F};
-    const auto grown = f32(std::clamp(cloud.severity, 0.0, 1.0));
-    for (std::size_t i = 0; i < kHeap.size(); ++i)
-        shape.lift[i] = glm::mix(kHeap[i], shape.lift[i], grown);
+// A storm grows from a tower to an anvil with its severity.
+float grown(const CloudLayer& cloud) {
+    return cloud.genus == CloudGenus::kCumulonimbus ? f32(std::clamp(cloud.severity, 0.0, 1.0)) : 1.0F;
+}
+
+float threshold_of(const Coverage& coverage, const CloudLayer& cloud, double part) {
+    const double depth = extinction_of(cloud) * cloud.thickness_m;
+    const float full = coverage.threshold(cloud.genus, part, depth);
+    const float young = 1.0F - grown(cloud);
+    return young > 0.0F ? glm::mix(full, coverage.threshold(kTower, part, depth), young) : full;
 }
 
 // Coverage moves the sum's mean from where no tile brings it over 0 to where none brings it below.
@@ -76,11 +79,11 @@ Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnch
         layer.shape = shape_of(matrix.noise, *cloud.look, place);
         tell(cloud, layer);
     } else {
-        const double depth = extinction * cloud.thickness_m;
         layer.shape = shape_of(matrix.noise, cloud.genus, place);
-        grow(cloud, layer.shape);
-        layer.threshold = matrix.coverage.threshold(cloud.genus, cloud.coverage, depth);
-        layer.dry = matrix.coverage.threshold(cloud.genus, 0.0, depth) - layer.threshold + 0.5F;
+        for (std::size_t i = 0; i < 3; ++i)
+            layer.shape.lift[i] = glm::mix(genus_of(kTower).lift[i], layer.shape.lift[i], grown(cloud));
+        layer.threshold = threshold_of(matrix.coverage, cloud, cloud.coverage);
+        layer.dry = threshold_of(matrix.coverage, cloud, 0.0) - layer.threshold + 0.5F;
         layer.self_shadow = 1.0F;
     }
     layer.base_m = f32(cloud.base_m);

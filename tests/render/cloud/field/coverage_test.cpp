@@ -35,21 +35,26 @@ struct Case {
     const char* name;
     double thickness_m;
     double extinction_per_m;
+    double severity = 0.0;
 };
 
 TEST(Coverage, IsWhatIsAskedFor) {
     // Ice is asked for dense enough to hide anything.
-    const std::vector<Case> cases = {
-        {CloudGenus::kCumulus, "Cu", 1000.0, 0.0},      {CloudGenus::kCumulus, "Cu, thick", 2500.0, 0.0},
-        {CloudGenus::kStratocumulus, "Sc", 400.0, 0.0}, {CloudGenus::kStratus, "St", 300.0, 0.0},
-        {CloudGenus::kAltocumulus, "Ac", 350.0, 0.0},   {CloudGenus::kCumulonimbus, "Cb", 8000.0, 0.0},
-        {CloudGenus::kCirrus, "Ci", 1000.0, 0.01}};
+    const std::vector<Case> cases = {{CloudGenus::kCumulus, "Cu", 1000.0, 0.0},
+                                     {CloudGenus::kCumulus, "Cu, thick", 2500.0, 0.0},
+                                     {CloudGenus::kStratocumulus, "Sc", 400.0, 0.0},
+                                     {CloudGenus::kStratus, "St", 300.0, 0.0},
+                                     {CloudGenus::kAltocumulus, "Ac", 350.0, 0.0},
+                                     {CloudGenus::kCumulonimbus, "Cb, young", 8000.0, 0.0},
+                                     {CloudGenus::kCumulonimbus, "Cb, grown", 8000.0, 0.0, 1.0},
+                                     {CloudGenus::kCirrus, "Ci", 1000.0, 0.01}};
     for (const Case& c : cases) {
         double worst = 0.0;
         for (const double asked : {0.1, 0.3, 0.5, 0.7, 0.9}) {
             CloudLayer layer = layer_of(c.genus, 1000.0, c.thickness_m, asked);
             layer.extinction_per_m = c.extinction_per_m;
-            const Seen measured = straight_down(layer, 1000);
+            layer.severity = c.severity;
+            const Seen measured = straight_down(layer, 700);
             std::printf("%-10s asked %.0f %%: hidden %5.1f %%, mean opacity %5.1f %%\n", c.name,
                         100.0 * asked, 100.0 * measured.hidden, 100.0 * measured.opacity);
             worst = std::max(worst, std::abs(measured.hidden - asked));
