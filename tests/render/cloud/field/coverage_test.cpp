@@ -51,10 +51,12 @@ TEST(Coverage, IsWhatIsAskedFor) {
     for (const Case& c : cases) {
         double worst = 0.0;
         for (const double asked : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+            // All steps of the two that matter most.
+            if (c.thickness_m != 1000.0 && c.thickness_m != 400.0 && (asked == 0.3 || asked == 0.7)) continue;
             CloudLayer layer = layer_of(c.genus, 1000.0, c.thickness_m, asked);
             layer.extinction_per_m = c.extinction_per_m;
             layer.severity = c.severity;
-            const Seen measured = straight_down(layer, 700);
+            const Seen measured = straight_down(layer, 1200);
             std::printf("%-10s asked %.0f %%: hidden %5.1f %%, mean opacity %5.1f %%\n", c.name,
                         100.0 * asked, 100.0 * measured.hidden, 100.0 * measured.opacity);
             worst = std::max(worst, std::abs(measured.hidden - asked));
