@@ -22,23 +22,6 @@ void read_offset(TableReader& table, Channel& channel, ChannelPlaces& places) {
     if (value != nullptr) places.offset = value->place;
 }
 
-/// One pair of frustum sides: both are needed, and something has to lie between them.
-void read_sides(TableReader& table, std::string_view low_key, double& low_deg, std::string_view high_key,
-                double& high_deg) {
-    const Range range{-kMaxHalfAngle_deg, kMaxHalfAngle_deg, "degrees"};
-    const Value* low = table.number(low_key, low_deg, range);
-    const Value* high = table.number(high_key, high_deg, range);
-    table.require(low_key, "the signed half angle to that side in degrees");
-    table.require(high_key, "the signed half angle to that side in degrees");
-    if (low != nullptr && high != nullptr && low_deg >= high_deg) {
-        table.error(
-            *high, high_key,
-            fmt::format(
-                "is {}, not greater than {} = {}: such a channel has no area ({} is normally negative)",
-                high_deg, low_key, low_deg, low_key));
-    }
-}
-
 void read_own_screen(TableReader& table, const Screen& usual, Channel& channel) {
     if (table.any("display") == nullptr) return;
     TableReader own = table.table("display");
@@ -65,12 +48,8 @@ ChannelPlaces read_channel(TableReader& table, const Screen& usual, Channel& cha
     table.integer("height_px", channel.height_px, 1, kMaxChannelSize_px, "pixels");
     table.require("width_px", "the channel's width in pixels");
     table.require("height_px", "the channel's height in pixels");
-    read_sides(table, "left_deg", channel.left_deg, "right_deg", channel.right_deg);
-    read_sides(table, "bottom_deg", channel.bottom_deg, "top_deg", channel.top_deg);
-    table.number("yaw_deg", channel.yaw_deg, {-360.0, 360.0, "degrees"});
-    table.number("pitch_deg", channel.pitch_deg, {-90.0, 90.0, "degrees"});
-    table.number("roll_deg", channel.roll_deg, {-180.0, 180.0, "degrees"});
     read_offset(table, channel, places);
+    read_frustum(table, channel);
     if (const Value* value = table.integer("view_id", channel.view_id, 0, 65535); value != nullptr) {
         places.view_id = value->place;
     }

@@ -31,6 +31,9 @@ void read_screen(TableReader& table, Screen& screen);
 void read_display(TableReader table, Display& display);
 void read_eye(TableReader table, Eye& eye);
 
+/// Reads the frustum of a [[channel]] and where it looks, its size and eye being read.
+void read_frustum(TableReader& table, Channel& channel);
+
 /// Reads the [[channel]] tables and checks them against one another. \param usual  screen that theirs are
 /// variants of
 void read_channels(TableReader& root, ErrorList& errors, const Screen& usual, std::vector<Channel>& channels);
