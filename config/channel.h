@@ -46,4 +46,7 @@ struct Channel {
     std::optional<Screen> display;
 };
 
+/// The field on the other side of a picture, `other_px` long, that makes its pixels square.
+[[nodiscard]] double matching_field_deg(double field_deg, double own_px, double other_px) noexcept;
+
 }  // namespace skyig::config

@@ -39,11 +39,6 @@ void read_half_angles(TableReader& table, Channel& channel) {
     read_sides(table, "bottom_deg", channel.bottom_deg, "top_deg", channel.top_deg);
 }
 
-/// Of the other side of a picture with square pixels.
-double matching_field_deg(double field_deg, double own_px, double other_px) noexcept {
-    return 2.0 * std::atan(std::tan(field_deg * kPi / 360.0) * other_px / own_px) * 180.0 / kPi;
-}
-
 void read_fields(TableReader& table, Channel& channel) {
     const Range range{0.0, kMaxField_deg, "degrees", true};
     double across_deg = channel.right_deg - channel.left_deg;
@@ -117,6 +112,10 @@ bool leaves_out(TableReader& table, std::string_view beside, std::span<const std
 }
 
 }  // namespace
+
+double matching_field_deg(double field_deg, double own_px, double other_px) noexcept {
+    return 2.0 * std::atan(std::tan(field_deg * kPi / 360.0) * other_px / own_px) * 180.0 / kPi;
+}
 
 void read_frustum(TableReader& table, Channel& channel) {
     if (const Value* screen = table.any("screen"); screen != nullptr) {
