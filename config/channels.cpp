@@ -30,7 +30,8 @@ void read_own_screen(TableReader& table, const Screen& usual, Channel& channel) 
     own.finish();
 }
 
-ChannelPlaces read_channel(TableReader& table, const Screen& usual, Channel& channel) {
+ChannelPlaces read_channel(TableReader& table, ErrorList& errors, const Screen& usual,
+                           const std::vector<Window>& windows, Channel& channel) {
     ChannelPlaces places;
     places.name = places.view_id = places.offset = table.place();
     if (const Value* value = table.text("name", channel.name); value != nullptr) {
@@ -55,6 +56,7 @@ ChannelPlaces read_channel(TableReader& table, const Screen& usual, Channel& cha
     }
     table.integer("group_id", channel.group_id, 0, 255);
     read_own_screen(table, usual, channel);
+    read_viewport(table, errors, windows, channel);
     table.finish();
     return places;
 }
@@ -102,7 +104,7 @@ void compare(ErrorList& errors, const std::vector<Channel>& channels,
 }  // namespace
 
 void read_channels(TableReader& root, ErrorList& errors, const Screen& usual,
-                   std::vector<Channel>& channels) {
+                   const std::vector<Window>& windows, std::vector<Channel>& channels) {
     const Value* value = root.any("channel");
     if (value == nullptr) {
         errors.add({}, "channel",
@@ -129,7 +131,8 @@ void read_channels(TableReader& root, ErrorList& errors, const Screen& usual,
         Channel& channel = channels.emplace_back();
         channel.view_id = static_cast<int>(number);
         TableReader reader(errors, table, item.place, fmt::format("channel[{}]", number));
-        places.push_back(table == nullptr ? ChannelPlaces{} : read_channel(reader, usual, channel));
+        places.push_back(table == nullptr ? ChannelPlaces{}
+                                          : read_channel(reader, errors, usual, windows, channel));
     }
     compare(errors, channels, places);
 }
