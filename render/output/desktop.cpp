@@ -1,17 +1,17 @@
 #include "render/output/desktop.h"
 
-#include <epoxy/gl.h>
-
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
-// After epoxy, whose declarations of OpenGL are used.
+// OpenGL is render/gl's.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 #include "render/gl/context_text.h"
+#include "render/gl/picture_copy.h"
 
 namespace skyig::render::output {
 namespace {
@@ -106,12 +106,16 @@ class Window {
         place(monitor);
         glfwMakeContextCurrent(handle_.get());
         glfwSwapInterval(vsync ? 1 : 0);
-        glCreateFramebuffers(1, &source_);
+        copy_.emplace();
     }
 
-    // Objects of a context go with it; framebuffers are not shared.
-    Window(Window&&) noexcept = default;
-    Window& operator=(Window&&) noexcept = default;
+    ~Window() {
+        // What is the context's own goes while that is current.
+        glfwMakeContextCurrent(handle_.get());
+        copy_.reset();
+    }
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
 
     [[nodiscard]] bool closed() const noexcept { return glfwWindowShouldClose(handle_.get()) == GLFW_TRUE; }
 
@@ -150,18 +154,15 @@ class Window {
     }
 
     void copy(const Shown& picture, const Part& part, int window_height_px) const noexcept {
-        glNamedFramebufferTexture(source_, GL_COLOR_ATTACHMENT0, picture.texture, 0);
         // Windows count rows from the top, OpenGL from the bottom.
-        const int bottom_px = window_height_px - part.y_px - part.height_px;
-        const bool same = part.width_px == picture.width_px && part.height_px == picture.height_px;
-        glBlitNamedFramebuffer(source_, 0, 0, 0, picture.width_px, picture.height_px, part.x_px, bottom_px,
-                               part.x_px + part.width_px, bottom_px + part.height_px, GL_COLOR_BUFFER_BIT,
-                               same ? GL_NEAREST : GL_LINEAR);
+        copy_->onto_window(
+            picture.texture, picture.width_px, picture.height_px,
+            {part.x_px, window_height_px - part.y_px - part.height_px, part.width_px, part.height_px});
     }
 
     WindowLayout layout_;
     WindowHandle handle_;
-    unsigned source_ = 0;
+    std::optional<gl::PictureCopy> copy_;
     bool hidden_ = false;
 };
 
@@ -170,14 +171,15 @@ class Window {
 struct Desktop::Impl {
     Glfw glfw;
     WindowHandle drawing;
-    std::vector<Window> windows;
+    std::vector<std::unique_ptr<Window>> windows;
     int monitor_count = 0;
 };
 
 Desktop::Desktop(std::vector<WindowLayout> windows, bool vsync) : impl_(std::make_unique<Impl>()) {
     impl_->drawing = make_drawing_context();
     for (WindowLayout& layout : windows)
-        impl_->windows.emplace_back(std::move(layout), impl_->drawing.get(), vsync && impl_->windows.empty());
+        impl_->windows.push_back(std::make_unique<Window>(std::move(layout), impl_->drawing.get(),
+                                                          vsync && impl_->windows.empty()));
     impl_->monitor_count = static_cast<int>(monitors().size());
     glfwMakeContextCurrent(impl_->drawing.get());
 }
@@ -188,13 +190,13 @@ bool Desktop::present(std::span<const Shown> channels) {
     glfwPollEvents();
     if (const int count = static_cast<int>(monitors().size()); count != impl_->monitor_count) {
         impl_->monitor_count = count;
-        for (Window& window : impl_->windows)
-            window.look_for_monitor();
+        for (const auto& window : impl_->windows)
+            window->look_for_monitor();
     }
     bool closed = false;
-    for (Window& window : impl_->windows) {
-        window.show(channels);
-        closed = closed || window.closed();
+    for (const auto& window : impl_->windows) {
+        window->show(channels);
+        closed = closed || window->closed();
     }
     glfwMakeContextCurrent(impl_->drawing.get());
     return !closed;

@@ -170,8 +170,8 @@ TEST(Skyigd, OpensWindowsWhereTheSettingsWantThemAndThereIsADesktop) {
     const Site site;
     const std::string windows =
         site.scratch.write("windows.toml", read_text(site.config_path) + "[output]\nkind = \"window\"\n");
-    const Finished shown = run({"xvfb-run", "-a", SKYIGD_PROGRAM, "--config", windows, "--frames", "3",
-                                "--report", site.report_path});
+    const Finished shown = run({"/usr/bin/xvfb-run", "-a", SKYIGD_PROGRAM, "--config", windows, "--frames",
+                                "3", "--report", site.report_path});
     EXPECT_EQ(shown.status, 0) << shown.err;
     const Json report = Json::parse(read_text(site.report_path));
     EXPECT_EQ(report.at("frames"), 3);
