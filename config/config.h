@@ -13,6 +13,7 @@
 #include "config/screen.h"
 #include "config/sky.h"
 #include "config/source.h"
+#include "config/weather.h"
 #include "config/window.h"
 
 namespace skyig::config {
@@ -163,6 +164,7 @@ struct Config {
     Ground ground;
     Sky sky;
     Night night;
+    Weather weather;
     Ephemeris ephemeris;
     Display display;
     Quality quality;

@@ -16,12 +16,20 @@ void read_sources(TableReader& root, ErrorList& errors, const Host& host, std::v
 /// Reads [status].
 void read_status(TableReader& table, Status& status);
 
-/// Reads [air] and [sky] with its tables.
+/// Refuses a layout of another version.
+void read_version(TableReader& root);
+
+/// Reads [air], [ground], [sky] with its tables.
 void read_air(TableReader table, Air& air);
+void read_ground(TableReader table, Ground& ground);
 void read_sky(TableReader table, Sky& sky);
 
 /// Reads [night] with its cities.
 void read_night(TableReader table, ErrorList& errors, Night& night);
+
+/// Reads [weather], whose preset stands in `weather` already, and its keyframes.
+void read_weather(TableReader table, ErrorList& errors, Weather& weather);
+void read_keyframes(TableReader table, Keyframes& keyframes);
 
 /// Reads what [display] and [channel.display] have in common; what is left out stays. Full white that is
 /// given brings an adaptation of half of it.
