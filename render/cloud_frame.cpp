@@ -192,21 +192,44 @@ void CloudFrame::fill_nodes(int tile, Nodes& nodes) const noexcept {
 
 namespace {
 
-// Of one row of texels, between the nodes above and below it.
-template <class At>
-void row_of_nodes(int row, At at, float (&out)[5]) noexcept {
-    const int high = row / cloud::Snapshot::kNodeStep;
-    const float share = static_cast<float>(row % cloud::Snapshot::kNodeStep) / cloud::Snapshot::kNodeStep;
-    for (int i = 0; i < 5; ++i) {
-        const float from = at(static_cast<std::size_t>(high * 5 + i));
-        out[i] = from + share * (at(static_cast<std::size_t>(high * 5 + 5 + i)) - from);
-    }
+// Where the octahedron folds: along a diagonal of its square, which tiles on it have as theirs.
+enum class Fold { kNone, kFalling, kRising };
+
+Fold fold_of(const MapGeometry::Texel& corner, int size) noexcept {
+    if (corner.column == corner.row) return Fold::kFalling;
+    return corner.column + corner.row == size - kTile ? Fold::kRising : Fold::kNone;
 }
 
-float along(const float (&nodes)[5], int column) noexcept {
-    const int left = column / cloud::Snapshot::kNodeStep;
-    const float share = static_cast<float>(column % cloud::Snapshot::kNodeStep) / cloud::Snapshot::kNodeStep;
-    return nodes[left] + share * (nodes[left + 1] - nodes[left]);
+// One row of texels from nodes, kNodeStep texels apart: linear both ways, but over two triangles in cells that the
+// fold goes through.
+template <class At>
+void spread(Fold fold, int row, At at, float* out) noexcept {
+    constexpr int kStep = cloud::Snapshot::kNodeStep;
+    constexpr float kShare = 1.0F / kStep;
+    const int high = row / kStep;
+    const float down = static_cast<float>(row % kStep) * kShare;
+    for (int cell = 0; cell < kTile / kStep; ++cell) {
+        const auto node = static_cast<std::size_t>(high * 5 + cell);
+        const float a = at(node), b = at(node + 1), c = at(node + 5), d = at(node + 6);
+        const bool falling = fold == Fold::kFalling && cell == high;
+        const bool rising = fold == Fold::kRising && cell + high == kTile / kStep - 1;
+        float* texels = out + cell * kStep;
+        if (!falling && !rising) {
+            const float from = a + down * (c - a);
+            const float step = (b + down * (d - b) - from) * kShare;
+            for (int i = 0; i < kStep; ++i)
+                texels[i] = from + step * static_cast<float>(i);
+            continue;
+        }
+        for (int i = 0; i < kStep; ++i) {
+            const float right = static_cast<float>(i) * kShare;
+            if (falling)
+                texels[i] = right > down ? a + right * (b - a) + down * (d - b) : a + down * (c - a) + right * (d - c);
+            else
+                texels[i] = right + down < 1.0F ? a + right * (b - a) + down * (c - a)
+                                                : d + (1.0F - right) * (c - d) + (1.0F - down) * (b - d);
+        }
+    }
 }
 
 }  // namespace
@@ -216,17 +239,18 @@ void CloudFrame::gather_row(int tile, int row, const Nodes& nodes, double horizo
     const MapGeometry& geometry = map_.geometry();
     const MapGeometry::Texel corner = geometry.corner(tile);
     const auto parts = map_.parts();
-    float near_passed[5];
-    row_of_nodes(row, [&](std::size_t i) { return nodes.near[i].v[3]; }, near_passed);
+    const Fold fold = fold_of(corner, geometry.size());
+    float near_passed[kTile];
+    spread(fold, row, [&](std::size_t i) { return nodes.near[i].v[3]; }, near_passed);
     float near_share = 0.0F;
-    float inverse_m[2][5];
+    float inverse_m[2][kTile];
     for (std::size_t part = 0; part < parts.size(); ++part) {
-        row_of_nodes(row, [&](std::size_t i) { return nodes.inverse_m[part][i]; }, inverse_m[part]);
+        spread(fold, row, [&](std::size_t i) { return nodes.inverse_m[part][i]; }, inverse_m[part]);
         near_share += parts[part].beyond_near ? parts[part].weight : 0.0F;
     }
     for (int c = 0; c < 3; ++c) {
-        row_of_nodes(row, [&](std::size_t i) { return near_share * nodes.near[i].v[c]; },
-                     out.nodes[cloud::kNearLight + c]);
+        spread(fold, row, [&](std::size_t i) { return near_share * nodes.near[i].v[c]; },
+               out.smooth[cloud::kNearLight + c]);
     }
     const float scale = 2.0F / static_cast<float>(geometry.size() - 1);
     const float y = static_cast<float>(corner.row + row) * scale - 1.0F;
@@ -241,8 +265,8 @@ void CloudFrame::gather_row(int tile, int row, const Nodes& nodes, double horizo
         for (std::size_t k = 0; k < parts.size(); ++k) {
             const auto& part = parts[k];
             const cloud::Snapshot::Seen seen =
-                part.snapshot->seen(direction, along(inverse_m[k], i), part.offset_m);
-            const float factor = part.beyond_near ? part.weight * along(near_passed, i) : part.weight;
+                part.snapshot->seen(direction, inverse_m[k][i], part.offset_m);
+            const float factor = part.beyond_near ? part.weight * near_passed[i] : part.weight;
             sum += seen.light * factor;
             opacity += factor * (1.0F - seen.light[3]);
             reach_m += factor * seen.reach_m;
@@ -262,17 +286,18 @@ void CloudFrame::tone_tile(int tile, const SkyLight& light, std::size_t first) n
     fill_nodes(tile, nodes);
     const double horizon_sine = std::sin(light.horizon_elevation_rad);
     const cloud::ToneKernel& kernel = cloud::tone_kernel();
+    const Fold fold = fold_of(map_.geometry().corner(tile), map_.geometry().size());
     cloud::ToneRow row;
     for (int y = 0; y < kTile; ++y) {
         gather_row(tile, y, nodes, horizon_sine, row);
         for (int c = 0; c < 3; ++c) {
-            row_of_nodes(y, [&](std::size_t i) { return backdrop.sky[i][c]; }, row.nodes[cloud::kSky + c]);
-            row_of_nodes(y, [&](std::size_t i) { return backdrop.ground[i][c]; },
-                         row.nodes[cloud::kGround + c]);
-            row_of_nodes(y, [&](std::size_t i) { return backdrop.extinction[i][c]; },
-                         row.nodes[cloud::kExtinction + c]);
-            row_of_nodes(y, [&](std::size_t i) { return backdrop.convergence[i][c]; },
-                         row.nodes[cloud::kConvergence + c]);
+            const auto lay = [&](const glm::vec3(&nodes_of)[kNodeCount], int channel) {
+                spread(fold, y, [&](std::size_t i) { return nodes_of[i][c]; }, row.smooth[channel + c]);
+            };
+            lay(backdrop.sky, cloud::kSky);
+            lay(backdrop.ground, cloud::kGround);
+            lay(backdrop.extinction, cloud::kExtinction);
+            lay(backdrop.convergence, cloud::kConvergence);
         }
         for (std::size_t screen = 0; screen < laws_.size(); ++screen)
             kernel.tone(laws_[screen], row, &texels_[screen][first + static_cast<std::size_t>(y * kTile * 4)]);

@@ -20,7 +20,7 @@ struct ToneLaw {
     float encode_power;
 };
 
-/// Linear between nodes, which stand 8 texels apart. Linear Rec.709.
+/// Smooth over directions. Linear Rec.709.
 enum ToneChannel {
     kSky = 0,           ///< luminance of the sky behind the clouds
     kGround = 3,        ///< of the ground behind them
@@ -36,7 +36,7 @@ struct ToneRow {
     float passed[kToneRow];     ///< of all light behind, by all clouds
     float reach_m[kToneRow];    ///< distance times opacity
     float above[kToneRow];      ///< 1 before the sky, 0 before the ground
-    float nodes[kToneChannels][5];
+    float smooth[kToneChannels][kToneRow];
 };
 
 struct ToneKernel {

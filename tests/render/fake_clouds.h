@@ -20,8 +20,6 @@ struct FakeSheet {
     double least_transmittance = 0.0;
     double most_transmittance = 1.0;
     glm::vec3 light_cd_m2{6000.0F, 6000.0F, 6500.0F};
-    /// Beyond it there is none.
-    double most_distance_m = 60e3;
     /// Of fog everywhere, in addition; it has light_cd_m2 too.
     double fog_per_m = 0.0;
 
@@ -30,7 +28,7 @@ struct FakeSheet {
                                            const cloud::CloudRange& range) const {
         cloud::CloudSample sample;
         const double from_m = static_cast<double>(range.from_m);
-        const double to_m = std::min(static_cast<double>(range.to_m), most_distance_m);
+        const auto to_m = static_cast<double>(range.to_m);
         if (fog_per_m > 0.0) {
             const double passed = std::exp(-fog_per_m * std::max(to_m - from_m, 0.0));
             sample.transmittance = static_cast<float>(passed);
@@ -43,8 +41,8 @@ struct FakeSheet {
         const glm::dvec2 at = glm::dvec2{eye_m} + away_m * glm::dvec2{direction};
         const double turn = wavelength_m > 0.0 ? 2.0 * std::numbers::pi / wavelength_m : 0.0;
         const double wave = 0.5 + 0.5 * std::sin(turn * at.x) * std::sin(turn * at.y);
-        // Fades out where it ends.
-        const double fade = std::clamp(4.0 * (1.0 - away_m / most_distance_m), 0.0, 1.0);
+        // Fades out towards the level, where it would end at once.
+        const double fade = std::min(std::abs(direction.z) * 8.0, 1.0);
         const double opacity =
             fade * (1.0 - (least_transmittance + wave * (most_transmittance - least_transmittance)));
         if (!(opacity > 0.0)) return sample;
