@@ -73,7 +73,7 @@ void CloudFrame::follow(cloud::CloudMaker& maker, const Scene& scene, const clou
     probes_[eye::kProbeCount + 1] = glm::vec3{body_direction(light, scene.moon.direction_enu)};
     jumped_ = jumped || !shown_;
     map_.update(maker,
-                {.moment = {scene.eye, scene.weather, scene.time_s, on_clouds},
+                {.moment = {scene, scene.eye, on_clouds},
                  .views = scene.channel_views(),
                  .probes = probes_,
                  .seen_horizon_rad = light.horizon_elevation_rad,

@@ -11,9 +11,9 @@ namespace skyig::render::cloud {
 
 /// What a source is frozen from.
 struct CloudMoment {
+    const Scene& scene;
+    /// Where the clouds are seen from: near by the scene's eye, for which the scene's places are told.
     Eye eye;
-    const Weather& weather;
-    double time_s = 0.0;
     const CloudLight& light;
 };
 

@@ -82,7 +82,7 @@ void CloudMap::note_motion(const MapFrame& frame) noexcept {
 
 bool CloudMap::stands_still(const MapFrame& frame) const noexcept {
     const glm::dvec3 away_m = eye_offset_m(frozen_eye_, frame.moment.eye);
-    return glm::dot(away_m, away_m) < 1e-4 && same_weather(frame.moment.weather, frozen_weather_) &&
+    return glm::dot(away_m, away_m) < 1e-4 && same_weather(frame.moment.scene.weather, frozen_weather_) &&
            same_light(frame.moment.light, frozen_light_);
 }
 
@@ -91,7 +91,7 @@ bool CloudMap::near_wanted(const MapFrame& frame) const noexcept {
     const double climb_m = std::abs(motion_a_frame_.height_m) * 3.0 * period_frames_;
     const double reach_m = kNearRange_m + kNearReserve_m + climb_m;
     const double height_m = frame.moment.eye.height_m;
-    const auto clouds = frame.moment.weather.all_clouds();
+    const auto clouds = frame.moment.scene.weather.all_clouds();
     return std::any_of(clouds.begin(), clouds.end(), [&](const CloudLayer& layer) {
         return layer.coverage > 0.0 && height_m > layer.base_m - layer.bottom_band_m - reach_m &&
                height_m < layer.base_m + layer.thickness_m + layer.top_band_m + reach_m;
@@ -100,7 +100,7 @@ bool CloudMap::near_wanted(const MapFrame& frame) const noexcept {
 
 Frozen CloudMap::frozen_at(const MapFrame& frame, const Eye& eye) const noexcept {
     Frozen frozen{.eye = eye,
-                  .drift_m = drift_of(frame.moment.weather),
+                  .drift_m = drift_of(frame.moment.scene.weather),
                   .range = {},
                   .seen_horizon_rad = frame.seen_horizon_rad,
                   .straight_horizon_rad = frame.straight_horizon_rad};
@@ -114,7 +114,7 @@ void CloudMap::begin(CloudMaker& maker, const MapFrame& frame, double frames_ahe
     moment.eye.longitude_deg += frames_ahead * motion_a_frame_.longitude_deg;
     moment.eye.height_m += frames_ahead * motion_a_frame_.height_m;
     frozen_eye_ = frame.moment.eye;
-    frozen_weather_ = frame.moment.weather;
+    frozen_weather_ = frame.moment.scene.weather;
     frozen_light_ = frame.moment.light;
     sources_[next_] = &maker.freeze(next_, moment);
     snapshots_[next_].begin(frozen_at(frame, moment.eye));
@@ -213,7 +213,7 @@ void CloudMap::tell_parts(const MapFrame& frame) noexcept {
     part_count_ = 0;
     const auto add = [&](std::size_t index, float weight) {
         const Frozen& frozen = snapshots_[index].frozen();
-        const glm::dvec2 drifted_m = drift_of(frame.moment.weather) - frozen.drift_m;
+        const glm::dvec2 drifted_m = drift_of(frame.moment.scene.weather) - frozen.drift_m;
         const glm::dvec3 offset_m =
             eye_offset_m(frozen.eye, frame.moment.eye) - glm::dvec3{drifted_m.x, drifted_m.y, 0.0};
         const Part part{&snapshots_[index], weight, glm::vec3{offset_m}, frozen.range.from_m > 0.0F};

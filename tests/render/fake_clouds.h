@@ -78,8 +78,8 @@ class FakeMaker final : public cloud::CloudMaker {
     const cloud::CloudSource& freeze(std::size_t slot, const cloud::CloudMoment& moment) override {
         sources_[slot].sheet = sheet_;
         sources_[slot].eye_m = fake_place_m(moment.eye);
-        if (moment.weather.cloud_count > 0) {
-            const glm::dvec2 drift_m = moment.weather.clouds[0].drift_m;
+        if (moment.scene.weather.cloud_count > 0) {
+            const glm::dvec2 drift_m = moment.scene.weather.clouds[0].drift_m;
             sources_[slot].eye_m -= glm::dvec3{drift_m.x, drift_m.y, 0.0};
         }
         return sources_[slot];
