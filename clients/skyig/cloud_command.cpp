@@ -17,8 +17,10 @@ void add_cloud(CLI::App& app, CloudOptions& options) {
     verb.add_option("--model", options.model, fmt::format("{} (table)", fmt::join(names, ", ")))
         ->check(CLI::IsMember(names))
         ->type_name("MODEL");
+    CLI::App& what = *verb.add_option_group("what", "one of these");
+    what.require_option(1);
     CLI::Option* cases =
-        verb.add_option("--cases", options.cases_path, "the table to fill in (CSV); - is standard input")
+        what.add_option("--cases", options.cases_path, "the table to fill in (CSV); - is standard input")
             ->type_name("FILE");
     verb.add_option("-o,--out", options.out_path,
                     "where the filled table goes; - is standard output (so it is)")
