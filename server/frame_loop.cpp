@@ -42,7 +42,8 @@ FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, 
       answers_(config.host),
       inbox_(config, parts.world, parts.log),
       scenes_(ephemeris_model(config), std::move(orientation), sky_settings(config.sky),
-              ground_settings(config.ground), night_settings(config.night)),
+              ground_settings(config.ground), night_settings(config.night),
+              weather::weather_settings(config.weather)),
       times_(config.channels.size()) {}
 
 void FrameLoop::warm_up() {
