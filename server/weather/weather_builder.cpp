@@ -7,6 +7,7 @@
 
 #include "render/weather_area.h"
 #include "server/start_weather/layers.h"
+#include "server/weather/day_keyframes.h"
 
 namespace skyig::server::weather {
 namespace {
@@ -26,6 +27,8 @@ constexpr double kThickBand_m = 1800.0;
 /// The eye's velocity is that over so long a time; faster, it was put elsewhere.
 constexpr double kEyeTime_s = 0.25;
 constexpr double kFastestEye_m_s = 10'000.0;
+/// Every four seconds another.
+constexpr double kLooksADay = 21'600.0;
 
 static_assert(
     static_cast<int>(config::CloudModel::kAuto) == static_cast<int>(render::CloudModel::kAuto) &&
@@ -75,7 +78,10 @@ Obscurant obscurant_of(const ShownLayer& layer, Obscurant::Kind kind, double tim
 }  // namespace
 
 WeatherSettings weather_settings(const config::Weather& weather) noexcept {
-    return {weather.transition_s, weather.elevation_m, static_cast<render::CloudModel>(weather.clouds)};
+    WeatherSettings settings{
+        weather.transition_s, weather.elevation_m, static_cast<render::CloudModel>(weather.clouds), {}};
+    if (weather.driver == config::WeatherDriver::kKeyframes) settings.keyframes = weather.keyframes;
+    return settings;
 }
 
 WeatherBuilder::WeatherBuilder(const WeatherSettings& settings)
@@ -85,6 +91,14 @@ void WeatherBuilder::build(const world::World& world, render::Scene& scene) {
     render::Weather& weather = scene.weather;
     const bool at_once = jumped(world, scene.time_s);
     const EyePlane plane(scene.eye);
+    if (settings_.keyframes) {
+        // In steps, so that tables made of a look are finished before the next.
+        const double day = solar_day(world.clock().utc().second_of_day(), scene.eye.longitude_deg);
+        const config::Keyframe look =
+            look_at(*settings_.keyframes, std::floor(day * kLooksADay) / kLooksADay);
+        put_look(look, scene);
+        cloud_cover_ = look.cloud_cover;
+    }
     const double contrast = scene.air.visibility_contrast;
     const Meaning meaning{-std::log(contrast) / std::max(scene.air.visibility_m, 1.0), contrast,
                           settings_.elevation_m};
@@ -183,7 +197,7 @@ void WeatherBuilder::show(const EyePlane& plane, const render::Scene& scene,
 void WeatherBuilder::show_cloud(const ShownLayer& layer, const render::Scene& scene,
                                 const std::optional<WeatherArea>& area, render::Weather& weather) noexcept {
     const LayerState& state = layer.state;
-    const double coverage = state.coverage * layer.uncovered;
+    const double coverage = std::min(state.coverage * layer.uncovered * cloud_cover_, 1.0);
     if (coverage <= 0.0) return;
     if (weather.cloud_count == render::Weather::kMaxClouds) {
         ++left_out_;

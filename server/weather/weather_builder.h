@@ -20,6 +20,8 @@ struct WeatherSettings {
     /// Height of the ground above the ellipsoid: wind and unnamed clouds go by the height above it.
     double elevation_m = 0.0;
     render::CloudModel clouds = render::CloudModel::kAuto;
+    /// They make the air, the stars and the colours of the sky, and scale the clouds; none: the host does.
+    std::optional<config::Keyframes> keyframes;
 };
 
 [[nodiscard]] WeatherSettings weather_settings(const config::Weather& weather) noexcept;
@@ -34,7 +36,7 @@ class WeatherBuilder {
   public:
     explicit WeatherBuilder(const WeatherSettings& settings = {});
 
-    /// \param scene  its eye, time and air are set
+    /// \param scene  its eye, time, air, stars and sky are set
     void build(const world::World& world, render::Scene& scene);
 
     /// Of the last frame: layers for which the scene has no place, the furthest.
@@ -68,6 +70,8 @@ class WeatherBuilder {
     glm::dvec3 eye_velocity_ecef_m_s_{0.0};
     bool eye_moves_ = false;
     std::size_t left_out_ = 0;
+    /// Of clouds, by the keyframes.
+    double cloud_cover_ = 1.0;
 };
 
 }  // namespace skyig::server::weather

@@ -45,7 +45,8 @@ inline cigi::EnvRegionControl region(std::uint16_t id, double latitude_deg, doub
 struct WeatherBench {
     explicit WeatherBench(const config::Config& config = world::three_channels())
         : host(config),
-          scenes(ephemeris::Model::kAlmanac, {}, {}, {}, {}, weather_settings(config.weather)) {}
+          scenes(ephemeris::Model::kAlmanac, {}, sky_settings(config.sky), {}, {},
+                 weather_settings(config.weather)) {}
 
     template <class... Packets>
     void send(const Packets&... packets) {

@@ -74,6 +74,7 @@ TEST(WeatherBuilder, TheEyeHasItsOwnVelocityAndWind) {
     layer.wind_direction = 180.0F;
     bench.send(layer);
     bench.frame();
+    bench.frame();
     EXPECT_NEAR(bench.weather().wind_m_s.y, 40.0, 1e-6);
     EXPECT_NEAR(bench.weather().clouds[0].drift_m.y, 40.0 * bench.scene.time_s, 1e-6);
     // Put elsewhere it does not race.
