@@ -11,11 +11,7 @@ namespace skyig::config {
 namespace {
 
 std::string_view output_name(OutputKind kind) {
-    switch (kind) {
-        case OutputKind::kHeadless:
-            break;
-    }
-    return "headless";
+    return kind == OutputKind::kWindow ? "in windows" : "headless";
 }
 
 /// A path in the settings is meant from where they stand.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kModelNames{"almanac", "erfa", "series"};
 constexpr std::array<std::string_view, 2> kSurfaceNames{"land", "sea"};
-constexpr std::array<std::string_view, 1> kOutputNames{"headless"};
+constexpr std::array<std::string_view, 2> kOutputNames{"headless", "window"};
 
 void read_daemon(TableReader table, Daemon& daemon) {
     table.number("rate_hz", daemon.rate_hz, {1.0, 240.0, "Hz"});
@@ -80,6 +80,7 @@ void read_quality(TableReader table, Quality& quality) {
 void read_output(TableReader table, Output& output) {
     std::size_t index = 0;
     if (table.choice("kind", index, kOutputNames) != nullptr) output.kind = static_cast<OutputKind>(index);
+    table.boolean("vsync", output.vsync);
     table.finish();
 }
 
@@ -154,7 +155,9 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_record(root.table("record"), config.record);
     TableReader status = root.table("status");
     read_status(status, config.status);
-    read_channels(root, errors, config.display, config.channels);
+    read_windows(root, errors, config.windows);
+    read_channels(root, errors, config.display, config.windows, config.channels);
+    place_channels(errors, config);
     root.finish();
     return config;
 }
