@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "render/precipitation/extinction.h"
 #include "server/start_weather/genus.h"
 #include "server/start_weather/precipitation.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 using config::LayerType;
 using config::WeatherLayer;
+using Kind = render::Precipitation::Kind;
 namespace metar = protocol::metar;
 using metar::Descriptor;
 using metar::Phenomenon;
@@ -149,22 +151,22 @@ class Reading {
             is_there(weather, Descriptor::kBlowing) || is_there(weather, Descriptor::kDrifting);
         switch (phenomenon) {
             case Phenomenon::kDrizzle:
-                return add_falling(LayerType::kDrizzle, Falling::kDrizzle, weather.intensity);
+                return add_falling(LayerType::kDrizzle, Kind::kDrizzle, weather.intensity);
             case Phenomenon::kRain:
-                return add_falling(LayerType::kRain, Falling::kRain, weather.intensity);
+                return add_falling(LayerType::kRain, Kind::kRain, weather.intensity);
             case Phenomenon::kUnknownPrecipitation:
                 return report_.temperature_c.value_or(10) <= 0
-                           ? add_falling(LayerType::kSnow, Falling::kSnow, weather.intensity)
-                           : add_falling(LayerType::kRain, Falling::kRain, weather.intensity);
+                           ? add_falling(LayerType::kSnow, Kind::kSnow, weather.intensity)
+                           : add_falling(LayerType::kRain, Kind::kRain, weather.intensity);
             case Phenomenon::kSnow:
             case Phenomenon::kSnowGrains:
-                if (!lifted) add_falling(LayerType::kSnow, Falling::kSnow, weather.intensity);
+                if (!lifted) add_falling(LayerType::kSnow, Kind::kSnow, weather.intensity);
                 return;
             case Phenomenon::kIcePellets:
-                return add_falling(LayerType::kSleet, Falling::kSleet, weather.intensity);
+                return add_falling(LayerType::kSleet, Kind::kSleet, weather.intensity);
             case Phenomenon::kHail:
             case Phenomenon::kSmallHail:
-                return add_falling(LayerType::kHail, Falling::kHail, weather.intensity);
+                return add_falling(LayerType::kHail, Kind::kHail, weather.intensity);
             case Phenomenon::kFog:
                 return add_partial_fog(weather.descriptor);
             case Phenomenon::kSmoke:
@@ -207,11 +209,12 @@ class Reading {
         most->lightning = true;
     }
 
-    void add_falling(LayerType type, Falling kind, metar::Intensity intensity) {
+    void add_falling(LayerType type, Kind kind, metar::Intensity intensity) {
         WeatherLayer& layer = add_ground(type, falls_from_m());
         layer.severity = 1 + static_cast<int>(intensity);
         layer.rate_mm_h = rate_of_severity_mm_h(kind, layer.severity);
-        dim_by_last_layer(extinction_of_rate_per_m(kind, layer.rate_mm_h));
+        dim_by_last_layer(
+            render::precipitation::extinction_per_m(kind, layer.rate_mm_h, made_.air.temperature_c));
     }
 
     /// Fog without MI, BC, PR is the reported visibility itself.

@@ -56,9 +56,9 @@ struct ToldLayer {
     double distance_m = 0.0;
 };
 
-/// Part `t` of the way, member by member. Extinction goes linearly; from or to a genus' own it changes at the
-/// middle.
-[[nodiscard]] LayerState mix(const LayerState& from, const LayerState& to, double t) noexcept;
+/// Part `t` of the way, member by member. Extinction goes linearly; that of a cloud from or to its genus' own
+/// changes at the middle.
+[[nodiscard]] LayerState mix(Family family, const LayerState& from, const LayerState& to, double t) noexcept;
 
 /// The layer as it begins and ends: clouds without coverage, the others without extinction and rate.
 [[nodiscard]] LayerState nothing_of(Family family, const LayerState& state) noexcept;

@@ -5,11 +5,11 @@
 
 namespace skyig::server::weather {
 
-void Glide::aim(double to, double time_s, double transition_s) noexcept {
+void Glide::aim(double to, double since_s, double transition_s) noexcept {
     if (to == to_) return;
-    from_ = at(time_s, transition_s);
+    from_ = at(since_s, transition_s);
     to_ = to;
-    since_s_ = time_s;
+    since_s_ = since_s;
 }
 
 double Glide::at(double time_s, double transition_s) const noexcept {
@@ -25,25 +25,25 @@ void Ramps::advance(std::span<const ToldLayer> told, double time_s, bool at_once
     for (ShownLayer& layer : shown_)
         layer.ends = true;
     for (const ToldLayer& layer : told)
-        tell(layer, time_s);
+        tell(layer);
     for (ShownLayer& layer : shown_)
         move(layer, time_s, time_s - time_s_, now);
     forget_ended(time_s, now);
     time_s_ = time_s;
 }
 
-void Ramps::tell(const ToldLayer& told, double time_s) noexcept {
+void Ramps::tell(const ToldLayer& told) noexcept {
     const auto found = std::find_if(shown_.begin(), shown_.end(),
                                     [&](const ShownLayer& layer) { return layer.told.key == told.key; });
     if (found == shown_.end()) {
         if (shown_.size() == kMost) return;
         const LayerState nothing = nothing_of(told.key.family, told.state);
-        shown_.push_back({told, nothing, told.uncovered, {}, nothing, time_s, false});
+        shown_.push_back({told, nothing, told.uncovered, {}, nothing, time_s_, false});
         return;
     }
     if (found->told.state != told.state) {
         found->from = found->state;
-        found->since_s = time_s;
+        found->since_s = time_s_;
     }
     found->told = told;
     found->ends = false;
@@ -54,7 +54,7 @@ void Ramps::move(ShownLayer& layer, double time_s, double step_s, bool at_once) 
         const LayerState nothing = nothing_of(layer.told.key.family, layer.told.state);
         if (layer.told.state != nothing) {
             layer.from = layer.state;
-            layer.since_s = time_s;
+            layer.since_s = time_s_;
             layer.told.state = nothing;
         }
     }
@@ -65,7 +65,7 @@ void Ramps::move(ShownLayer& layer, double time_s, double step_s, bool at_once) 
         return;
     }
     const double part = std::clamp((time_s - layer.since_s) / transition_s_, 0.0, 1.0);
-    layer.state = mix(layer.from, layer.told.state, part);
+    layer.state = mix(layer.told.key.family, layer.from, layer.told.state, part);
     const double most = step_s / transition_s_;
     layer.uncovered += std::clamp(layer.told.uncovered - layer.uncovered, -most, most);
 }

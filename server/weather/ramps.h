@@ -39,7 +39,8 @@ class Drift {
 class Glide {
   public:
     explicit Glide(double value) noexcept : from_(value), to_(value) {}
-    void aim(double to, double time_s, double transition_s) noexcept;
+    /// \param since_s  the last frame's time: what changes in every frame gets on too
+    void aim(double to, double since_s, double transition_s) noexcept;
     void set(double value) noexcept { from_ = to_ = value; }
     [[nodiscard]] double at(double time_s, double transition_s) const noexcept;
     [[nodiscard]] bool settled(double time_s, double transition_s) const noexcept {
@@ -82,11 +83,12 @@ class Ramps {
     [[nodiscard]] std::span<ShownLayer> shown() noexcept { return shown_; }
 
   private:
-    void tell(const ToldLayer& told, double time_s) noexcept;
+    void tell(const ToldLayer& told) noexcept;
     void move(ShownLayer& layer, double time_s, double step_s, bool at_once) const noexcept;
     void forget_ended(double time_s, bool at_once) noexcept;
 
     double transition_s_;
+    /// Of the last frame: a change begins there, so that what changes in every frame gets on too.
     double time_s_ = 0.0;
     std::vector<ShownLayer> shown_;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/precipitation/extinction.h"
 #include "server/start_weather/genus.h"
 #include "server/start_weather/layers.h"
 #include "server/start_weather/precipitation.h"
@@ -87,22 +88,6 @@ std::optional<Kind> kind_of(const WeatherControl& control, const Meaning& meanin
     return cloud_kind(control, meaning);
 }
 
-Falling falling_of(std::uint8_t precipitation) noexcept {
-    switch (static_cast<Precipitation::Kind>(precipitation)) {
-        case Precipitation::Kind::kDrizzle:
-            return Falling::kDrizzle;
-        case Precipitation::Kind::kSnow:
-            return Falling::kSnow;
-        case Precipitation::Kind::kSleet:
-            return Falling::kSleet;
-        case Precipitation::Kind::kHail:
-            return Falling::kHail;
-        case Precipitation::Kind::kRain:
-            break;
-    }
-    return Falling::kRain;
-}
-
 /// Mass extinction of what floats, m2/g, visible light: mineral dust of a few micrometres, blown sand of 100,
 /// wood smoke, fog droplets of 7.
 double extinction_m2_g(std::uint8_t obscurant) noexcept {
@@ -126,7 +111,10 @@ double extinction_per_m(const WeatherControl& control, const Kind& kind, const M
     const double told = visibility_m > 0.0 ? -std::log(meaning.contrast) / visibility_m : 0.0;
     if (kind.family == Family::kCloud) return std::min(told, kDensest_per_m);
     if (told > 0.0) return std::clamp(told - meaning.air_extinction_per_m, 0.0, kDensest_per_m);
-    if (kind.family == Family::kFalling) return extinction_of_rate_per_m(falling_of(kind.number), rate_mm_h);
+    if (kind.family == Family::kFalling) {
+        return render::precipitation::extinction_per_m(static_cast<Precipitation::Kind>(kind.number),
+                                                       rate_mm_h, meaning.temperature_c);
+    }
     const double hanging = static_cast<double>(control.aerosol) * extinction_m2_g(kind.number);
     return hanging > 0.0 ? std::min(hanging, kDensest_per_m) : kDensest_per_m;
 }
@@ -141,8 +129,9 @@ LayerState state_of(const WeatherControl& control, const Kind& kind, const Meani
     state.severity = std::min<double>(control.severity, 5.0) / 5.0;
     if (kind.family == Family::kFalling) {
         const double told = rate_of_water_mm_h(static_cast<double>(control.aerosol));
-        const double rate =
-            told > 0.0 ? told : rate_of_severity_mm_h(falling_of(kind.number), control.severity);
+        const double rate = told > 0.0 ? told
+                                       : rate_of_severity_mm_h(static_cast<Precipitation::Kind>(kind.number),
+                                                               control.severity);
         state.rate_mm_h = rate * state.coverage;
     }
     state.extinction_per_m = extinction_per_m(control, kind, meaning, state.rate_mm_h);

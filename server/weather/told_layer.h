@@ -15,6 +15,8 @@ struct Meaning {
     double contrast = 0.05;
     /// Above it, heights tell which genus a cloud is that has none.
     double elevation_m = 0.0;
+    /// How wet snow is.
+    double temperature_c = 15.0;
 };
 
 /// Nothing for a layer without thickness or coverage, and for what this image generator does not know.

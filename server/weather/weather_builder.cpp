@@ -101,7 +101,7 @@ void WeatherBuilder::build(const world::World& world, render::Scene& scene) {
     }
     const double contrast = scene.air.visibility_contrast;
     const Meaning meaning{-std::log(contrast) / std::max(scene.air.visibility_m, 1.0), contrast,
-                          settings_.elevation_m};
+                          settings_.elevation_m, scene.air.temperature_c};
     ramps_.advance(gatherer_.gather(world, plane, meaning), scene.time_s, at_once);
     for (ShownLayer& layer : ramps_.shown())
         layer.drift.set_wind(wind_of(layer.told, world.air()), scene.time_s);
@@ -126,7 +126,7 @@ void WeatherBuilder::settle_air(render::Scene& scene, bool at_once) noexcept {
     if (at_once) {
         air_per_m_.set(told_per_m);
     } else {
-        air_per_m_.aim(told_per_m, scene.time_s, settings_.transition_s);
+        air_per_m_.aim(told_per_m, *time_s_, settings_.transition_s);
     }
     // A settled visibility goes through untouched.
     if (!air_per_m_.settled(scene.time_s, settings_.transition_s))

@@ -68,6 +68,26 @@ TEST(Ramps, EveryMemberGoesItsWayAndTurnsBackWithoutAStep) {
     EXPECT_EQ(bench.weather().clouds[0].base_m, 300.0);
 }
 
+/// A host may stream its own slow change: what is shown follows, and does not stand still.
+TEST(Ramps, WhatChangesInEveryFrameIsFollowed) {
+    WeatherBench bench;
+    cigi::AtmosphereControl air;
+    air.model_enable = true;
+    WeatherControl layer = cloud(1, CloudType::kStratus, 300.0F, 100.0F);
+    for (int i = 0; i < 3600; ++i) {
+        layer.base_elevation = 300.0F + static_cast<float>(i) / 60.0F;  // 1 m/s
+        air.visibility = 50'000.0F / (1.0F + static_cast<float>(i) / 3600.0F);
+        bench.send(layer, air);
+        bench.frame(kFrame_s);
+    }
+    const double behind_m = static_cast<double>(layer.base_elevation) - bench.weather().clouds[0].base_m;
+    std::printf("  a base that rises by 1 m/s is %.2f m behind\n", behind_m);
+    EXPECT_GT(behind_m, 0.0);
+    EXPECT_LT(behind_m, 10.1);
+    EXPECT_NEAR(bench.scene.air.visibility_m, 25'000.0 / (1.0 - 10.0 / 120.0), 100.0);
+    EXPECT_NEAR(bench.weather().clouds[0].coverage, 1.0, 0.01);
+}
+
 TEST(Ramps, AnotherGenusFadesInWhileTheOldFadesOut) {
     WeatherBench bench;
     bench.send(cloud(1, CloudType::kCumulus, 1000.0F, 50.0F));

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "server/start_weather/layers.h"
+#include "render/precipitation/extinction.h"
 #include "server/start_weather/precipitation.h"
 #include "tests/server/weather/weather_bench.h"
 
@@ -67,7 +67,8 @@ TEST(ToldLayer, EveryLayerIdIsWhatTheTableSays) {
 TEST(ToldLayer, ACloudWithoutTypeGoesByHeightAboveTheGroundAndAmount) {
     const auto genus = [](float base_m, float coverage_pct, int type = 0) {
         return static_cast<CloudGenus>(
-            told_layer(cloud(1, static_cast<CloudType>(type), base_m, coverage_pct), {0.0, 0.05, 1000.0})
+            told_layer(cloud(1, static_cast<CloudType>(type), base_m, coverage_pct),
+                       {0.0, 0.05, 1000.0, 15.0})
                 ->key.kind);
     };
     EXPECT_EQ(genus(1300.0F, 100.0F), CloudGenus::kStratus);
@@ -105,14 +106,15 @@ TEST(ToldLayer, KeepsBandsScudSeverityAndLightning) {
     EXPECT_EQ(state.extinction_per_m, 0.0) << "without a visibility: the genus' own";
     told.visibility = 60.0F;
     EXPECT_NEAR(told_layer(told, {})->state.extinction_per_m, -std::log(0.05) / 60.0, 1e-9);
-    EXPECT_NEAR(told_layer(told, {0.0, 0.02, 0.0})->state.extinction_per_m, -std::log(0.02) / 60.0, 1e-9);
+    EXPECT_NEAR(told_layer(told, {0.0, 0.02, 0.0, 15.0})->state.extinction_per_m, -std::log(0.02) / 60.0,
+                1e-9);
 }
 
 TEST(ToldLayer, VisibilityOfAnObscurantHasTheAirInIt) {
     const double air_per_m = -std::log(0.05) / 10'000.0;
-    const auto fog = told_layer(layer(0), {air_per_m, 0.05, 0.0});
+    const auto fog = told_layer(layer(0), {air_per_m, 0.05, 0.0, 15.0});
     EXPECT_NEAR(fog->state.extinction_per_m + air_per_m, -std::log(0.05) / 2000.0, 1e-12);
-    EXPECT_EQ(told_layer(layer(0), {1.0, 0.05, 0.0})->state.extinction_per_m, 0.0);
+    EXPECT_EQ(told_layer(layer(0), {1.0, 0.05, 0.0, 15.0})->state.extinction_per_m, 0.0);
     WeatherControl blind = layer(0);
     blind.visibility = 0.0F;
     EXPECT_TRUE(std::isfinite(told_layer(blind, {})->state.extinction_per_m));
@@ -134,23 +136,11 @@ TEST(ToldLayer, RateComesFromWaterElseFromSeverityAndCoverage) {
     rain.aerosol = static_cast<float>(water_g_m3(12.5));
     EXPECT_NEAR(told_layer(rain, {})->state.rate_mm_h, 12.5, 1e-4);
     rain.visibility = 0.0F;
-    EXPECT_NEAR(told_layer(rain, {})->state.extinction_per_m, extinction_of_rate_per_m(Falling::kRain, 12.5),
-                1e-8);
+    EXPECT_NEAR(told_layer(rain, {})->state.extinction_per_m,
+                render::precipitation::rain_extinction_per_m(12.5), 1e-8);
 }
 
-/// The reference's table of Marshall-Palmer: R, sigma.
-TEST(Precipitation, ExtinctionFollowsTheTable) {
-    struct Row {
-        double rate_mm_h, sigma_per_m;
-    };
-    for (const Row& row : {Row{1.0, 3.65e-4}, Row{5.0, 1.00e-3}, Row{10.0, 1.56e-3}, Row{25.0, 2.77e-3},
-                           Row{50.0, 4.29e-3}, Row{100.0, 6.64e-3}}) {
-        const double sigma = extinction_of_rate_per_m(Falling::kRain, row.rate_mm_h);
-        std::printf("  %5.0f mm/h: %.3e 1/m, table %.2e\n", row.rate_mm_h, sigma, row.sigma_per_m);
-        EXPECT_NEAR(sigma, row.sigma_per_m, 0.006 * row.sigma_per_m);
-    }
-    EXPECT_NEAR(extinction_of_rate_per_m(Falling::kSnow, 1.0), 1.27e-3, 0.01e-3);
-    EXPECT_EQ(extinction_of_rate_per_m(Falling::kSnow, 0.0), 0.0);
+TEST(Precipitation, WaterAndRateGoBothWays) {
     // 0.0889 R^0.84 g/m3, from the exponential's fourth moment.
     EXPECT_NEAR(water_g_m3(10.0), 0.0889 * std::pow(10.0, 0.84), 1e-3);
     for (const double rate : {0.1, 1.0, 50.0})
