@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "render/cloud/lightning.h"
 #include "render/display.h"
 #include "render/dome.h"
 #include "render/eye/adaptation.h"
@@ -52,6 +53,8 @@ class SkyFrame {
     // All of this is the prepared frame's.
     [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
     [[nodiscard]] const SkyLight& light() const noexcept { return light_; }
+    /// Lightning that shines, for whoever draws the clouds.
+    [[nodiscard]] const cloud::Flashes& flashes() const noexcept { return flashes_; }
     /// What turns light into the target's values.
     [[nodiscard]] const shaders64::ToneParameters& tone(std::size_t screen = 0) const noexcept {
         return tones_[screen];
@@ -101,6 +104,7 @@ class SkyFrame {
     [[nodiscard]] glm::dvec3 exact_dome_colour(const glm::dvec3& direction_enu, std::size_t screen = 0) const;
 
   private:
+    void flash(const Scene& scene) noexcept;
     void refresh_milky_way(const Scene& scene);
     void adapt(const Scene& scene);
     void tone_screens(const Scene& scene, double smallest_pixel_sr);
@@ -137,6 +141,7 @@ class SkyFrame {
 
     Plan plan_;
     SkyLight light_;
+    cloud::Flashes flashes_;
     std::array<double, eye::kProbeCount> probes_cd_m2_{};
     std::vector<shaders64::ToneParameters> display_tones_;
     std::vector<shaders64::ToneParameters> tones_;  // of the target
@@ -164,6 +169,7 @@ class SkyFrame {
         glm::vec3 moon_scale{-1.0F};
         double moon_from_sun_rad = 0.0;
         float night_share = 0.0F;
+        float flash_cd_m2 = 0.0F;
     } shaded_;
 };
 

@@ -47,6 +47,15 @@ glm::vec3 dark_sky(const SkyLight& light, double straight_rad, double azimuth_ra
                                        : light.night->sky_rgb(above_rad, azimuth_rad));
 }
 
+// Of the air alike all round; the ground fades into it.
+glm::vec3 flash_cd_m2(const SkyLight& light, double elevation_rad, bool ground) {
+    if (!ground) return light.flash.sky_cd_m2;
+    const double away_m = std::max(light.eye_height_m, 0.0) / std::max(-std::sin(elevation_rad), 1e-4);
+    const auto passed = static_cast<float>(std::exp(-light.flash_extinction_per_m * away_m));
+    const auto diffuse = static_cast<float>(light.ground_albedo / std::numbers::pi);
+    return passed * diffuse * light.flash.ground_lux + (1.0F - passed) * light.flash.sky_cd_m2;
+}
+
 }  // namespace
 
 LitBelt lit_belt(const Scene& scene, const night::MilkyWayMap& map, double night_share) noexcept {
@@ -70,7 +79,7 @@ glm::vec3 SkyLight::smooth_rgb_cd_m2(double elevation_rad, double azimuth_rad, S
         side == Side::kGround || (side == Side::kByElevation && elevation_rad < horizon_elevation_rad);
     return rec709_from_xyz(xyz_of(sun, above_rad, azimuth_rad, ground) +
                            xyz_of(moon, above_rad, azimuth_rad, ground)) +
-           dark_sky(*this, straight_rad, azimuth_rad, ground);
+           dark_sky(*this, straight_rad, azimuth_rad, ground) + flash_cd_m2(*this, elevation_rad, ground);
 }
 
 glm::vec3 SkyLight::rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept {
