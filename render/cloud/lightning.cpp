@@ -166,16 +166,13 @@ glm::vec3 flash_on_cloud_cd_m2(const Flash& flash, const glm::dvec3& place_m, do
 
 FlashLight light_of(const Flashes& flashes, const Scene& scene, double extinction_per_m) noexcept {
     FlashLight light;
-    // Where light leaves the cloud no lower than this: nearer it is spread over the base.
     constexpr double kLeast_m = 500.0;
     constexpr double kMostSentOn = 0.1;
     for (const Flash& flash : flashes.all()) {
-        const CloudLayer& layer = scene.weather.clouds[flash.layer];
         const glm::dvec2 along_m{flash.place_m};
-        const double over_ground_m = std::max(layer.base_m, kLeast_m);
-        const double to_ground2 = glm::dot(along_m, along_m) + over_ground_m * over_ground_m;
-        const double lux =
-            2.0 * flash.intensity_cd * over_ground_m * over_ground_m / (to_ground2 * to_ground2);
+        const double over_ground_m = std::max(flash.place_m.z + scene.eye.height_m, kLeast_m);
+        const double to_ground_m = std::hypot(glm::length(along_m), over_ground_m);
+        const double lux = flash.intensity_cd * over_ground_m / (to_ground_m * to_ground_m * to_ground_m);
         const double to_eye_m = std::max(glm::length(flash.place_m), kLeast_m);
         const double sent_on =
             std::min(std::max(extinction_per_m, 0.0) * to_eye_m, kMostSentOn) / (4.0 * kPi);

@@ -64,9 +64,9 @@ struct FlashLight {
 
 /// \param extinction_per_m  of the air near the eye, >= 0
 ///
-/// Cloud hardly absorbs: half of a flash's light leaves by the base, as from a matt surface, and falls on the
-/// ground as 2 I h^2 / d^4 (h the base's height over it, at least 500 m). The air round the eye sends on
-/// sigma d / (4 pi) of I / d^2, sigma d at most a tenth.
+/// Cloud hardly absorbs: all light of a flash leaves it, to all sides alike, and falls on level ground as
+/// I h / d^3 (h its height over it, at least 500 m). The air round the eye sends on sigma d / (4 pi) of
+/// I / d^2, sigma d at most a tenth.
 [[nodiscard]] FlashLight light_of(const Flashes& flashes, const Scene& scene,
                                   double extinction_per_m) noexcept;
 
