@@ -27,6 +27,10 @@ bool scale_moved(const glm::vec3& a, const glm::vec3& b) {
     return glm::any(glm::greaterThan(glm::abs(a - b), kLightStep * glm::max(a, b)));
 }
 
+double unit(double share) {
+    return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
+}
+
 // What lightning gives to white ground, or to the air where that is brighter.
 float brightest_of_flash(const SkyLight& light) {
     const glm::vec3 ground = light.flash.ground_lux * static_cast<float>(1.0 / std::numbers::pi);
@@ -80,7 +84,7 @@ void SkyFrame::prepare(const Scene& scene, double pixel_rad, double smallest_pix
     plan_ = make_plan(scene, tables_.held(scene), refraction, quality_);
     tables_.update(scene, plan_);
     light_ = tables_.light(scene, plan_, refraction);
-    flash(scene);
+    take_weather(scene);
     adapt(scene);
     tone_screens(scene, smallest_pixel_sr);
     refresh_milky_way(scene);
@@ -90,13 +94,18 @@ void SkyFrame::prepare(const Scene& scene, double pixel_rad, double smallest_pix
     tell_dome();
 }
 
-void SkyFrame::flash(const Scene& scene) noexcept {
+void SkyFrame::take_weather(const Scene& scene) noexcept {
     const Air& air = scene.air;
     const double extinction_per_m =
         air.model_enabled ? -std::log(air.visibility_contrast) / std::max(air.visibility_m, 1.0) : 0.0;
     flashes_ = cloud::flashes_at(scene);
     light_.flash = cloud::light_of(flashes_, scene, extinction_per_m);
-    light_.flash_extinction_per_m = extinction_per_m;
+    light_.near_extinction_per_m = extinction_per_m;
+    const Ground& ground = scene.ground;
+    // The rest of it soaks in.
+    constexpr double kPuddles = 0.5;
+    light_.film =
+        ground.kind == Ground::Kind::kLand ? kPuddles * unit(ground.wet) * (1.0 - unit(ground.snow)) : 0.0;
 }
 
 void SkyFrame::adapt(const Scene& scene) {
@@ -224,6 +233,7 @@ void SkyFrame::refresh_dome(double pixel_rad) {
     const bool scaled = scale_moved(light_.sun.scale_xyz, shaded_.sun_scale) ||
                         scale_moved(light_.moon.scale_xyz, shaded_.moon_scale) || turned ||
                         std::abs(light_.night_share - shaded_.night_share) > kLightStep ||
+                        std::abs(light_.film - shaded_.film) > static_cast<double>(kLightStep) ||
                         flash_moved(flash_cd_m2, shaded_.flash_cd_m2, adaptation);
     const bool toned =
         std::abs(adaptation - shaded_.adaptation_cd_m2) > kAdaptationStep * shaded_.adaptation_cd_m2 ||
@@ -247,6 +257,7 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         shaded_.moon_from_sun_rad = wanted.second_azimuth_rad;
         shaded_.night_share = light_.night_share;
         shaded_.flash_cd_m2 = flash_cd_m2;
+        shaded_.film = light_.film;
     }
     if (replaced || scaled || toned) {
         dome_.encode(tones_);

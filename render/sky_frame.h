@@ -104,7 +104,7 @@ class SkyFrame {
     [[nodiscard]] glm::dvec3 exact_dome_colour(const glm::dvec3& direction_enu, std::size_t screen = 0) const;
 
   private:
-    void flash(const Scene& scene) noexcept;
+    void take_weather(const Scene& scene) noexcept;
     void refresh_milky_way(const Scene& scene);
     void adapt(const Scene& scene);
     void tone_screens(const Scene& scene, double smallest_pixel_sr);
@@ -170,6 +170,7 @@ class SkyFrame {
         double moon_from_sun_rad = 0.0;
         float night_share = 0.0F;
         float flash_cd_m2 = 0.0F;
+        double film = 0.0;
     } shaded_;
 };
 

@@ -79,7 +79,7 @@ TEST(StreakField, LiesAlongTheRelativeWindAsLongAsTheExposureMakesIt) {
 // dim, where shells pass into each other less.
 TEST(StreakField, CoversAsMuchOfTheViewAsTheDropsDim) {
     StreakField field;
-    Scene scene = falling_scene(Kind::kRain, 0.1);
+    Scene scene = falling_scene(Kind::kRain, 0.03);
     scene.weather.wind_m_s = {60.0, 10.0, 0.0};
     double covered_sr = 0.0;
     constexpr int kFrames = 20;
@@ -99,7 +99,7 @@ TEST(StreakField, CoversAsMuchOfTheViewAsTheDropsDim) {
     // Of the shells' depth, what their soft ends leave: the mean of rise(1, 1.3) (1 - rise(1.7, 2))
     // over 1..2.
     constexpr double kWhole = 0.7;
-    const double dimmed = rain_extinction_per_m(0.1) * 30.0 * kWhole;
+    const double dimmed = rain_extinction_per_m(0.03) * 30.0 * kWhole;
     std::printf("covered %.5f of the view, dimmed %.5f\n", covered_sr / (4.0 * M_PI), dimmed);
     EXPECT_NEAR(covered_sr / (4.0 * M_PI) / dimmed, 1.0, 0.1);
 }
