@@ -270,6 +270,10 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
     gl::finish();
 }
 
+unsigned Renderer::texture(std::size_t channel) const noexcept {
+    return channel < impl_->targets.size() ? impl_->targets[channel].texture() : 0U;
+}
+
 void Renderer::read_back(std::size_t channel, std::span<std::byte> rgba) {
     if (channel < impl_->targets.size()) impl_->targets[channel].read_rgba8(rgba);
 }
