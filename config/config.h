@@ -13,6 +13,8 @@
 #include "config/screen.h"
 #include "config/sky.h"
 #include "config/source.h"
+#include "config/weather.h"
+#include "config/window.h"
 
 namespace skyig::config {
 
@@ -124,11 +126,13 @@ struct Eye {
     bool glare = true;
 };
 
-/// "headless": nowhere, or into files by option.
-enum class OutputKind { kHeadless };
+/// "headless": nowhere, or into files by option. "window": on the desktop.
+enum class OutputKind { kHeadless, kWindow };
 
 struct Output {
     OutputKind kind = OutputKind::kHeadless;
+    /// Windows change their pictures between two refreshes of the first one's monitor, not within one.
+    bool vsync = true;
 };
 
 /// What comes in is kept.
@@ -160,11 +164,14 @@ struct Config {
     Ground ground;
     Sky sky;
     Night night;
+    Weather weather;
     Ephemeris ephemeris;
     Display display;
     Quality quality;
     Eye eye;
     Output output;
+    /// At most kMaxWindows; with OutputKind::kWindow one at least.
+    std::vector<Window> windows;
     Record record;
     Status status;
     /// 1..kMaxChannels

@@ -12,6 +12,7 @@
 #include "render/night/night_sky.h"
 #include "render/night/star_colour.h"
 #include "render/night/star_scintillation.h"
+#include "render/precipitation/streak_field.h"
 #include "render/sky/sea_surface.h"
 #include "render/sky/staleness.h"
 
@@ -83,6 +84,18 @@ Verdict plan_disc(bool enabled, double elevation_rad, double radius_rad, double 
     return {true, "above the horizon"};
 }
 
+Verdict plan_precipitation(const Scene& scene) {
+    const auto falling = scene.weather.all_precipitations();
+    const bool any = std::any_of(falling.begin(), falling.end(),
+                                 [](const Precipitation& what) { return what.rate_mm_h > 0.0; });
+    if (!any) return {false, "nothing falls"};
+    const bool here = std::any_of(falling.begin(), falling.end(), [&](const Precipitation& what) {
+        return precipitation::falls_on(what, scene.eye);
+    });
+    if (!here) return {false, "the eye is above what falls"};
+    return {true, "something falls round the eye"};
+}
+
 Cost cost_of(Pass pass) {
     switch (pass) {
         case Pass::kAirTables:
@@ -98,6 +111,7 @@ Cost cost_of(Pass pass) {
         case Pass::kCorona:
         case Pass::kSunDisc:
         case Pass::kMoonDisc:
+        case Pass::kPrecipitation:
         case Pass::kSunGlare:
         case Pass::kMoonGlare:
             break;
@@ -160,8 +174,8 @@ void plan_night(Plan& plan, double sun_rad) {
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables", "sun sky", "moon sky", "night sky", "dome",      "waves",     "milky way",
-        "stars",      "corona",  "sun disc", "moon disc", "sun glare", "moon glare"};
+        "air tables", "sun sky", "moon sky", "night sky", "dome",          "waves",     "milky way",
+        "stars",      "corona",  "sun disc", "moon disc", "precipitation", "sun glare", "moon glare"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -212,6 +226,7 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kSunDisc, plan_disc(scene.sun.enabled, sun_rad, sun_radius_rad, sets_at_rad));
     put(plan, Pass::kMoonDisc,
         plan_disc(scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad, sets_at_rad));
+    put(plan, Pass::kPrecipitation, plan_precipitation(scene));
     for (const Pass pass : {Pass::kSunGlare, Pass::kMoonGlare})
         put(plan, pass, {false, "not decided yet"});
     return plan;

@@ -19,10 +19,11 @@ enum class Pass {
     kCorona,  ///< what is left of the Sun in a total eclipse
     kSunDisc,
     kMoonDisc,
+    kPrecipitation,  ///< streaks of what falls near the eye
     kSunGlare,  ///< the veil round the disc in the eye
     kMoonGlare,
 };
-inline constexpr std::size_t kPassCount = 13;
+inline constexpr std::size_t kPassCount = 14;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 

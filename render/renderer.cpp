@@ -14,6 +14,7 @@
 #include "render/gl/program.h"
 #include "render/glare_pass.h"
 #include "render/milky_way_pass.h"
+#include "render/precipitation_pass.h"
 #include "render/screens.h"
 #include "render/sea_pass.h"
 #include "render/sky_frame.h"
@@ -69,6 +70,9 @@ struct Renderer::Impl {
     void refresh_deferred();
     [[nodiscard]] bool shows(std::size_t channel) const noexcept;
     [[nodiscard]] glm::dmat4 clip_from_enu(std::size_t channel) const noexcept;
+    [[nodiscard]] shaders32::ToneParameters tone32(std::size_t channel) const {
+        return eye::single_precision(frame.tone(screens.of_channel[channel]));
+    }
     void draw_sky(std::size_t channel);
     void draw_discs(std::size_t channel);
 
@@ -90,6 +94,7 @@ struct Renderer::Impl {
     Corona corona;
     SunDisc sun_disc;
     MoonDisc moon_disc;
+    PrecipitationPass precipitation;
     GlarePass sun_glare;
     GlarePass moon_glare;
     std::unique_ptr<DeferredPass> deferred;  // once a scene is drawn
@@ -181,6 +186,8 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
         m.stars.prepare(scene, m.frame, m.pixel_rad);
         m.report.stars_drawn = m.stars.count();
     }
+    if (m.frame.plan().needs(Pass::kPrecipitation))
+        m.precipitation.prepare(scene, m.frame.light(), m.pixel_rad);
     m.prepare_discs(0);
     if (m.deferred) m.refresh_deferred();
     m.report.plan = m.frame.plan();
@@ -210,8 +217,7 @@ void Renderer::Impl::draw_sky(std::size_t channel) {
     gl::set_blend(gl::Blend::kAdd);
     if (frame.light().milky_way.map != nullptr)
         milky_way.draw(frame.milky_way(), channels[channel], screen, clip);
-    if (plan.needs(Pass::kStars))
-        stars.draw(channels[channel], scene.views[channel], eye::single_precision(frame.tone(screen)));
+    if (plan.needs(Pass::kStars)) stars.draw(channels[channel], scene.views[channel], tone32(channel));
     if (plan.needs(Pass::kCorona)) corona.draw(glm::mat4{clip});
 }
 
@@ -229,6 +235,8 @@ void Renderer::draw(std::size_t channel) {
     m.draw_sky(channel);
     if (m.report.plan.needs(Pass::kMoonGlare)) m.moon_glare.draw(clip);
     m.draw_discs(channel);
+    if (m.report.plan.needs(Pass::kPrecipitation))
+        m.precipitation.draw(m.scene.views[channel], m.tone32(channel));
     gl::set_blend(gl::Blend::kAdd);
     // Over the Moon too, when it stands before the Sun.
     if (m.report.plan.needs(Pass::kSunGlare)) m.sun_glare.draw_around(clip);
@@ -249,14 +257,21 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
     m.draw_sky(channel);
     m.draw_discs(channel);
     gl::set_blend(gl::Blend::kReplace);
-    m.deferred->draw(m.scene.views[channel], input,
-                     eye::single_precision(m.frame.tone(m.screens.of_channel[channel])));
+    m.deferred->draw(m.scene.views[channel], input, m.tone32(channel));
+    if (m.report.plan.needs(Pass::kPrecipitation)) {
+        gl::set_blend(gl::Blend::kCoverage);
+        m.precipitation.draw_before(m.scene.views[channel], m.tone32(channel), input);
+    }
     // Glare is in the eye: before things too.
     const glm::mat4 clip{m.clip_from_enu(channel)};
     gl::set_blend(gl::Blend::kAdd);
     if (m.report.plan.needs(Pass::kMoonGlare)) m.moon_glare.draw_around(clip);
     if (m.report.plan.needs(Pass::kSunGlare)) m.sun_glare.draw_around(clip);
     gl::finish();
+}
+
+unsigned Renderer::texture(std::size_t channel) const noexcept {
+    return channel < impl_->targets.size() ? impl_->targets[channel].texture() : 0U;
 }
 
 void Renderer::read_back(std::size_t channel, std::span<std::byte> rgba) {

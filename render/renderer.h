@@ -54,6 +54,10 @@ class Renderer {
     /// keeps it; it may throw like the constructor. Ridges stand where a straight ray sees them.
     void draw_scene(std::size_t channel, const DeferredInput& input);
 
+    /// The GL name of a channel's picture, its bottom row first; complete after draw(). 0 for a channel that
+    /// is not there.
+    [[nodiscard]] unsigned texture(std::size_t channel) const noexcept;
+
     /// Copies a channel's pixels: RGBA, 8 bits, top row first, width * height * 4 bytes.
     void read_back(std::size_t channel, std::span<std::byte> rgba);
 

@@ -27,6 +27,7 @@
 #include "server/replay.h"
 #include "server/status/status_port.h"
 #include "server/stop_signal.h"
+#include "server/window_layouts.h"
 
 namespace skyig::server {
 
@@ -249,6 +250,15 @@ void write_report(const std::string& path, const RunReport& report) {
     if (!file) throw std::runtime_error(fmt::format("{}: the report cannot be written", path));
 }
 
+std::unique_ptr<GlPainter> make_painter(const DaemonOptions& options, const config::Config& config) {
+    if (options.headless || config.output.kind != config::OutputKind::kWindow)
+        return std::make_unique<GlPainter>(render_channels(config), display_settings(config),
+                                           quality(config));
+    return std::make_unique<GlPainter>(
+        std::make_unique<render::output::Desktop>(window_layouts(config), config.output.vsync),
+        render_channels(config), display_settings(config), quality(config));
+}
+
 void run(const DaemonOptions& options, const config::Config& config,
          ephemeris::EarthOrientation orientation) {
     StopSignal stop;
@@ -270,7 +280,8 @@ void run(const DaemonOptions& options, const config::Config& config,
     const std::unique_ptr<FrameTable> table =
         options.times_path.empty() ? nullptr
                                    : std::make_unique<FrameTable>(options.times_path, config.channels);
-    GlPainter painter(render_channels(config), display_settings(config), quality(config));
+    const std::unique_ptr<GlPainter> made = make_painter(options, config);
+    GlPainter& painter = *made;
     say_banner(log, config, painter, outside.heard(options, config));
     if (const std::string path = record_path(options, config, clock); !path.empty()) {
         outside.record(path, config,

@@ -77,6 +77,8 @@ bool FrameLoop::run_frame() {
     times.input_ns = stopwatch.lap_ns();
     times_.input().add(times.input_ns);
     draw(scene, stopwatch, times);
+    const bool wanted = parts_.painter.present();
+    if (!wanted) parts_.log.notice("a window was closed: the daemon ends");
     if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images();
     if (parts_.hashes != nullptr) hash_images();
 
@@ -90,7 +92,7 @@ bool FrameLoop::run_frame() {
     }
     watch(slot);
     if (parts_.status != nullptr) publish_status(scene);
-    return true;
+    return wanted;
 }
 
 void FrameLoop::answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns) {

@@ -58,7 +58,8 @@ class FrameLoop {
     /// Runs frames until the limit is reached, the pace ends or `stop` says so (asked once a frame).
     void run(const std::function<bool()>& stop);
 
-    /// Waits for the next frame's start and runs it. \return false when there is none any more
+    /// Waits for the next frame's start and runs it. \return false when there is none any more, or nobody
+    /// wants to see another
     bool run_frame();
 
     /// Of the frame at hand or the last.

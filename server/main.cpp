@@ -26,7 +26,7 @@ void declare(CLI::App& app, DaemonOptions& options) {
         ->required()
         ->type_name("FILE");
     app.add_flag("--check", options.check, "check the settings, say all that is wrong, and end");
-    app.add_flag("--headless")->description("no windows, whatever the settings say");
+    app.add_flag("--headless", options.headless, "no windows, whatever the settings say");
     app.add_option("--frames", options.frames, "end after N frames (0: run until SIGINT or SIGTERM)")
         // As signed numbers: a negative one would wrap to a count without end.
         ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000'000}))

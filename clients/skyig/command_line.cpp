@@ -26,9 +26,9 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 13> kVerbs{"host",   "shot",  "plan",   "bench",  "ephem",
-                                                  "decode", "metar", "replay", "record", "sky",
-                                                  "status", "top",   "tone"};
+constexpr std::array<std::string_view, 14> kVerbs{"host",  "shot",   "plan",  "channels", "bench",
+                                                  "ephem", "decode", "metar", "replay",   "record",
+                                                  "sky",   "status", "top",   "tone"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -101,6 +101,11 @@ void add_shot(CLI::App& app, ShotOptions& options) {
 void add_plan(CLI::App& app, PlanOptions& options) {
     add_still(app, options.still);
     app.add_flag("--json", options.json, "tell the plan as JSON");
+}
+
+void add_channels(CLI::App& app, ChannelsOptions& options) {
+    app.add_option("--config", options.config_path, "settings of the site")->required()->type_name("FILE");
+    app.add_flag("--json", options.json, "tell it as JSON");
 }
 
 void add_bench(CLI::App& app, BenchOptions& options) {
@@ -331,6 +336,7 @@ struct Verbs {
     HostOptions host;
     ShotOptions shot;
     PlanOptions plan;
+    ChannelsOptions channels;
     BenchOptions bench;
     EphemOptions ephem;
     DecodeOptions decode;
@@ -350,6 +356,8 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
              verbs.host, verbs.order);
     add_shot(*app.add_subcommand("shot", "draw one still without a network"), verbs.shot);
     add_plan(*app.add_subcommand("plan", "which passes a scene needs, how fine, and why"), verbs.plan);
+    add_channels(*app.add_subcommand("channels", "what a site's channels cover, overlap and leave out"),
+                 verbs.channels);
     add_bench(*app.add_subcommand("bench", "measure error and cost of every model of a family"), verbs.bench);
     add_ephem(
         *app.add_subcommand("ephem", "where Sun, Moon, planets and stars stand, and when things happen"),
@@ -387,6 +395,7 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     if (app.got_subcommand("host")) invocation.options = verbs.host;
     if (app.got_subcommand("shot")) invocation.options = verbs.shot;
     if (app.got_subcommand("plan")) invocation.options = verbs.plan;
+    if (app.got_subcommand("channels")) invocation.options = verbs.channels;
     if (app.got_subcommand("bench")) invocation.options = verbs.bench;
     if (app.got_subcommand("ephem")) invocation.options = verbs.ephem;
     if (app.got_subcommand("decode")) invocation.options = verbs.decode;

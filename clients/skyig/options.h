@@ -71,6 +71,12 @@ struct PlanOptions {
     bool json = false;
 };
 
+/// skyig channels: what the settings' channels cover.
+struct ChannelsOptions {
+    std::string config_path;
+    bool json = false;
+};
+
 /// skyig bench: error and cost of every model of a family; exactly one of family, list and render_folder.
 struct BenchOptions {
     std::string family;
@@ -221,9 +227,9 @@ struct ToneOptions {
 
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
-    std::variant<std::monostate, HostOptions, ShotOptions, PlanOptions, BenchOptions, EphemOptions,
-                 DecodeOptions, MetarOptions, ReplayOptions, RecordOptions, SkyOptions, StatusOptions,
-                 ToneOptions>
+    std::variant<std::monostate, HostOptions, ShotOptions, PlanOptions, ChannelsOptions, BenchOptions,
+                 EphemOptions, DecodeOptions, MetarOptions, ReplayOptions, RecordOptions, SkyOptions,
+                 StatusOptions, ToneOptions>
         options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)

@@ -26,8 +26,8 @@ config::Config base_config(const StillOptions& options) {
         channel.height_px = options.height_px;
         channel.right_deg = options.fov_deg / 2.0;
         channel.left_deg = -channel.right_deg;
-        const double top = std::tan(glm::radians(channel.right_deg)) * options.height_px / options.width_px;
-        channel.top_deg = glm::degrees(std::atan(top));
+        channel.top_deg =
+            config::matching_field_deg(options.fov_deg, options.width_px, options.height_px) / 2.0;
         channel.bottom_deg = -channel.top_deg;
         return config;
     }
