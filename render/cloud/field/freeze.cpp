@@ -31,7 +31,7 @@ double extinction_of(const CloudLayer& cloud) {
     return std::clamp(cloud.extinction_per_m > 0.0 ? cloud.extinction_per_m : own, 1e-12, 1e3);
 }
 
-Area area_of(const CloudLayer& cloud) {
+Area area_of(const CloudLayer& cloud, double closing) {
     Area area{};
     area.perimeter_m = -1.0F;
     if (!cloud.area) return area;
@@ -40,7 +40,8 @@ Area area_of(const CloudLayer& cloud) {
             {f32(std::sin(told.axis_rad)), f32(std::cos(told.axis_rad))},
             {f32(told.half_size_m.x), f32(told.half_size_m.y)},
             f32(told.corner_radius_m),
-            f32(std::max(told.perimeter_m, 0.0))};
+            f32(std::max(told.perimeter_m, 0.0)),
+            f32(closing)};
 }
 
 // A storm grows from a tower to an anvil with its severity.
@@ -93,7 +94,7 @@ Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnch
     layer.bottom_scud = f32(std::clamp(cloud.bottom_scud, 0.0, 1.0));
     layer.top_scud = f32(std::clamp(cloud.top_scud, 0.0, 1.0));
     layer.extinction_per_m = f32(extinction);
-    layer.area = area_of(cloud);
+    layer.area = area_of(cloud, anchor.closing);
     layer.g = genus.ice ? kIceG : kWaterG;
     layer.inside = (genus.ice ? matrix.ice : matrix.water).nodes();
     return layer;
@@ -159,7 +160,7 @@ float left_over(const Sky& sky, const Layer& layer, double mu0, bool above) {
 
 constexpr double kDiffuseMu = 0.6;
 
-void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& base,
+void shine_beams(const Sky& sky, float closing, const CloudLight& light, const CloudLight::At& base,
                  const CloudLight::At& top, Layer& layer) {
     for (std::size_t s = 0; s < CloudLight::kSources; ++s) {
         const Beam& beam = light.beams[s];
@@ -169,6 +170,8 @@ void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& 
         if (!own.lit) continue;
         for (int c = 0; c < 3; ++c)
             own.direction[c] = beam.direction_enu[c];
+        own.along[0] = beam.direction_enu.x + closing * beam.direction_enu.y;
+        own.along[1] = beam.direction_enu.y;
         const double mu0 = std::max(0.05, std::abs(static_cast<double>(beam.direction_enu.z)));
         own.lx = shine_of(base.beam_lx[s], top.beam_lx[s],
                           glm::vec3(left_over(sky, layer, mu0, beam.direction_enu.z >= 0.0F)));
@@ -224,12 +227,12 @@ void colour_layer(const CloudLayer& cloud, Layer& layer) {
     tint(layer.below_cd_m2, colour);
 }
 
-void shine_on(Sky& sky, const CloudLight& light) {
+void shine_on(Sky& sky, float closing, const CloudLight& light) {
     for (std::size_t k = 0; k < sky.count; ++k) {
         Layer& layer = sky.layers[k].layer;
         const CloudLight::At base = light.at(static_cast<double>(layer.base_m));
         const CloudLight::At top = light.at(static_cast<double>(upper(layer)));
-        shine_beams(sky, light, base, top, layer);
+        shine_beams(sky, closing, light, base, top, layer);
         shine_evenly(sky, base, top, sky.layers[k], layer);
         colour_layer(*sky.layers[k].cloud, layer);
     }
@@ -302,7 +305,7 @@ void freeze_field(const Matrix& matrix, const Scene& scene, const CloudLight& li
     for (const CloudLayer& cloud : scene.weather.all_clouds()) {
         if (is_cloud(cloud)) sky.layers[sky.count++] = {&cloud, layer_of(matrix, cloud, anchor)};
     }
-    shine_on(sky, light);
+    shine_on(sky, field.closing, light);
     stack(sky, field);
 }
 
