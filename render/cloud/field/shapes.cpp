@@ -15,8 +15,8 @@ constexpr Turn drawn(int main, int side, int factor) {
     return {main, side, -side * factor, main * factor};
 }
 
-// The tiles' finest features are these parts of them.
-constexpr double kFlatWave = 1.0 / 40.0;
+// The tiles' features that matter are these parts of them.
+constexpr double kFlatWave = 1.0 / 14.0;
 constexpr double kFineWave = 1.0 / 8.0;
 
 constexpr Genus cumulus() {

@@ -65,6 +65,24 @@ TEST(Coverage, IsWhatIsAskedFor) {
     }
 }
 
+TEST(Coverage, KeepsFromFarWhatRaysDoNotResolve) {
+    // From 400 km, rays half a kilometre wide and more, straight down.
+    const std::vector<CloudRay> rays = sphere_of_rays(8, 64, -0.5 * kPi, -0.5 * kPi + 0.3);
+    for (const double asked : {0.2, 0.5, 0.8}) {
+        CloudField field(matrix());
+        field.freeze(scene_of({layer_of(CloudGenus::kCumulus, 1000.0, 1000.0, asked)}, 400e3), plain_light());
+        for (const float ray_rad : {1e-5F, 1.2e-3F, 1e-2F}) {
+            double opacity = 0.0;
+            for (const CloudSample& sample : seen(field, rays, {}, ray_rad))
+                opacity +=
+                    static_cast<double>(1.0F - sample.transmittance) / static_cast<double>(rays.size());
+            std::printf("asked %.0f %%, rays of %.0e rad from 400 km: mean opacity %.1f %%\n", 100.0 * asked,
+                        static_cast<double>(ray_rad), 100.0 * opacity);
+            EXPECT_NEAR(opacity, asked, 0.12);
+        }
+    }
+}
+
 TEST(Coverage, OfNothingShowsExactlyNothing) {
     const std::vector<CloudRay> rays = sphere_of_rays(12, 16);
     for (const double eye_m : {2.0, 1500.0, 9000.0}) {
