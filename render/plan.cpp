@@ -111,6 +111,7 @@ Cost cost_of(Pass pass) {
         case Pass::kCorona:
         case Pass::kSunDisc:
         case Pass::kMoonDisc:
+        case Pass::kWetThings:
         case Pass::kPrecipitation:
         case Pass::kSunGlare:
         case Pass::kMoonGlare:
@@ -174,8 +175,9 @@ void plan_night(Plan& plan, double sun_rad) {
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables", "sun sky", "moon sky", "night sky", "dome",          "waves",     "milky way",
-        "stars",      "corona",  "sun disc", "moon disc", "precipitation", "sun glare", "moon glare"};
+        "air tables", "sun sky",    "moon sky",      "night sky", "dome",
+        "waves",      "milky way",  "stars",         "corona",    "sun disc",
+        "moon disc",  "wet things", "precipitation", "sun glare", "moon glare"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -226,6 +228,8 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kSunDisc, plan_disc(scene.sun.enabled, sun_rad, sun_radius_rad, sets_at_rad));
     put(plan, Pass::kMoonDisc,
         plan_disc(scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad, sets_at_rad));
+    const bool wet = scene.ground.kind == Ground::Kind::kLand && scene.ground.wet > 0.0;
+    put(plan, Pass::kWetThings, {wet, wet ? "another renderer's land is wet" : "the land is dry"});
     put(plan, Pass::kPrecipitation, plan_precipitation(scene));
     for (const Pass pass : {Pass::kSunGlare, Pass::kMoonGlare})
         put(plan, pass, {false, "not decided yet"});

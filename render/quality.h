@@ -19,11 +19,12 @@ enum class Pass {
     kCorona,  ///< what is left of the Sun in a total eclipse
     kSunDisc,
     kMoonDisc,
+    kWetThings,      ///< the sky in the film on things of another renderer
     kPrecipitation,  ///< streaks of what falls near the eye
     kSunGlare,       ///< the veil round the disc in the eye
     kMoonGlare,
 };
-inline constexpr std::size_t kPassCount = 14;
+inline constexpr std::size_t kPassCount = 15;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 
