@@ -88,12 +88,7 @@ LitBelt lit_belt(const Scene& scene, const night::MilkyWayMap& map, double night
 }
 
 double SkyLight::straight_elevation_rad(double elevation_rad) const noexcept {
-    if (elevation_rad >= 0.0 || horizon_elevation_rad >= 0.0) return elevation_rad;
-    if (elevation_rad >= horizon_elevation_rad)
-        return elevation_rad * (straight_horizon_rad / horizon_elevation_rad);
-    const double shift_rad = straight_horizon_rad - horizon_elevation_rad;
-    return elevation_rad +
-           shift_rad * std::tan(horizon_elevation_rad) * std::cos(elevation_rad) / std::sin(elevation_rad);
+    return render::straight_elevation_rad(elevation_rad, horizon_elevation_rad, straight_horizon_rad);
 }
 
 glm::vec3 SkyLight::smooth_rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept {
