@@ -28,6 +28,7 @@ void add_storm(Scene& scene) {
     scene.weather.cloud_count = 1;
     scene.weather.lightnings[0] = {0, 60.0, 5};
     scene.weather.lightning_count = 1;
+    scene.ground.wet = 0.5;
 }
 
 // A world that goes on: the Sun climbs, the aircraft too, so that tables are rebuilt all the time.
