@@ -165,6 +165,19 @@ void Snapshot::lay_distances() noexcept {
         spread();
 }
 
+float Snapshot::nearest_inverse(int tile) const noexcept {
+    const MapGeometry::Texel corner = geometry_.corner(tile);
+    float most = 0.0F;
+    for (int row = 0; row <= kTile / kNodeStep; ++row) {
+        for (int column = 0; column <= kTile / kNodeStep; ++column) {
+            most = std::max(most, inverse_distance(corner.column / kNodeStep + column,
+                                                   corner.row / kNodeStep + row, corner.lower));
+        }
+    }
+    // Lengths of directions whose components' sizes sum to 1 are 0.577 at least.
+    return most * 1.7320508F;
+}
+
 float Snapshot::inverse_distance(const glm::vec3& direction) const noexcept {
     const glm::vec2 place = shaders32::cloud_map_place(direction);
     const auto step = static_cast<float>(geometry_.size() - 1) / (2.0F * kNodeStep);

@@ -90,7 +90,9 @@ class Snapshot {
     [[nodiscard]] float inverse_distance(int column, int row, bool lower) const noexcept {
         return inverse_m_[node_index(column, row, lower)];
     }
-    /// The same between nodes. \param direction  components whose sizes sum to 1
+    /// 1 / m of the nearest of a tile's nodes.
+    [[nodiscard]] float nearest_inverse(int tile) const noexcept;
+    /// inverse_distance() between nodes. \param direction  components whose sizes sum to 1
     [[nodiscard]] float inverse_distance(const glm::vec3& direction) const noexcept;
 
   private:
