@@ -57,7 +57,7 @@ void CloudMap::stop() noexcept {
     ++revision_;
 }
 
-void CloudMap::resize(int size) {
+void CloudMap::resize(int size, std::size_t probes) {
     stop();
     geometry_ = MapGeometry(size);
     cones_.clear();
@@ -67,7 +67,7 @@ void CloudMap::resize(int size) {
         corners_.push_back(geometry_.corners(tile));
     }
     for (Snapshot& snapshot : snapshots_)
-        snapshot.resize(geometry_);
+        snapshot.resize(geometry_, probes);
     for (auto* each : {&tiles_, &seen_})
         each->reserve(cones_.size());
 }
@@ -231,7 +231,7 @@ void CloudMap::tell_parts(const MapFrame& frame) noexcept {
 void CloudMap::update(CloudMaker& maker, const MapFrame& frame, int size, int tiles_a_frame) {
     rays_ = near_rays_ = 0;
     ++frames_since_begin_;
-    if (cones_.empty() || size != geometry_.size()) resize(size);
+    if (cones_.empty() || size != geometry_.size()) resize(size, frame.probes.size());
     note_motion(frame);
     wanted_near_ = near_wanted(frame);
     list_tiles(frame.views, 0.0, seen_);

@@ -92,7 +92,7 @@ class CloudMap {
     [[nodiscard]] int near_rays() const noexcept { return near_rays_; }
 
   private:
-    void resize(int size);
+    void resize(int size, std::size_t probes);
     void note_motion(const MapFrame& frame) noexcept;
     [[nodiscard]] bool stands_still(const MapFrame& frame) const noexcept;
     [[nodiscard]] Frozen frozen_at(const MapFrame& frame, const Eye& eye) const noexcept;

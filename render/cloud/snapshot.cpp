@@ -26,7 +26,8 @@ glm::dvec3 eye_offset_m(const Eye& from, const Eye& to) noexcept {
             glm::radians(to.latitude_deg - from.latitude_deg) * radius_m, to.height_m - from.height_m};
 }
 
-void Snapshot::resize(const MapGeometry& geometry) {
+void Snapshot::resize(const MapGeometry& geometry, std::size_t probes) {
+    probes_.reserve(probes);
     geometry_ = geometry;
     light_.assign(geometry.texel_count(), kClear);
     reach_m_.assign(geometry.texel_count(), 0.0F);
