@@ -22,7 +22,7 @@ enum class Pass {
     kSunDisc,
     kMoonDisc,
     kPrecipitation,  ///< streaks of what falls near the eye
-    kSunGlare,  ///< the veil round the disc in the eye
+    kSunGlare,       ///< the veil round the disc in the eye
     kMoonGlare,
 };
 inline constexpr std::size_t kPassCount = 16;

@@ -30,6 +30,22 @@ bool scale_moved(const glm::vec3& a, const glm::vec3& b) {
     return glm::any(glm::greaterThan(glm::abs(a - b), kLightStep * glm::max(a, b)));
 }
 
+double unit(double share) {
+    return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
+}
+
+// What lightning gives to white ground, or to the air where that is brighter.
+float brightest_of_flash(const SkyLight& light) {
+    const glm::vec3 ground = light.flash.ground_lux * static_cast<float>(1.0 / std::numbers::pi);
+    return shaders32::luminance_709(glm::max(ground, light.flash.sky_cd_m2));
+}
+
+// Whether it has changed by what could show; that it is over always does.
+bool flash_moved(float now_cd_m2, float shaded_cd_m2, double adaptation_cd_m2) {
+    const float step = std::abs(now_cd_m2 - shaded_cd_m2);
+    return step > 0.0F && (now_cd_m2 == 0.0F || step > kLightStep * static_cast<float>(adaptation_cd_m2));
+}
+
 ClippedLight clipped_light(const std::array<double, eye::kProbeCount>& probes_cd_m2,
                            const shaders64::ToneParameters& tone) {
     ClippedLight clipped;
@@ -72,6 +88,7 @@ void SkyFrame::prepare(const Scene& scene, double pixel_rad, double smallest_pix
     plan_ = make_plan(scene, tables_.held(scene), refraction, quality_);
     tables_.update(scene, plan_);
     light_ = tables_.light(scene, plan_, refraction);
+    take_weather(scene);
     air_between_fresh_ = false;
     if (air_between_) air_between(scene);
     refresh_clouds(scene, pixel_rad);
@@ -124,6 +141,20 @@ glm::dvec3 SkyFrame::through_clouds(const glm::dvec3& behind_cd_m2,
                                     const glm::dvec3& direction_enu) const noexcept {
     if (!clouds_.shown()) return behind_cd_m2;
     return clouds_.seen_through(*air_between_, behind_cd_m2, direction_enu);
+}
+
+void SkyFrame::take_weather(const Scene& scene) noexcept {
+    const Air& air = scene.air;
+    const double extinction_per_m =
+        air.model_enabled ? -std::log(air.visibility_contrast) / std::max(air.visibility_m, 1.0) : 0.0;
+    flashes_ = cloud::flashes_at(scene);
+    light_.flash = cloud::light_of(flashes_, scene, extinction_per_m);
+    light_.near_extinction_per_m = extinction_per_m;
+    const Ground& ground = scene.ground;
+    // The rest of it soaks in.
+    constexpr double kPuddles = 0.5;
+    light_.film =
+        ground.kind == Ground::Kind::kLand ? kPuddles * unit(ground.wet) * (1.0 - unit(ground.snow)) : 0.0;
 }
 
 void SkyFrame::adapt(const Scene& scene) {
@@ -262,9 +293,12 @@ void SkyFrame::refresh_dome(double pixel_rad) {
     const bool replaced = lay || shaded_.tables != tables_.revision();
     const bool turned = std::abs(std::remainder(wanted.second_azimuth_rad - shaded_.moon_from_sun_rad,
                                                 2.0 * std::numbers::pi)) > static_cast<double>(kLightStep);
+    const float flash_cd_m2 = brightest_of_flash(light_);
     const bool scaled = scale_moved(light_.sun.scale_xyz, shaded_.sun_scale) ||
                         scale_moved(light_.moon.scale_xyz, shaded_.moon_scale) || turned ||
-                        std::abs(light_.night_share - shaded_.night_share) > kLightStep;
+                        std::abs(light_.night_share - shaded_.night_share) > kLightStep ||
+                        std::abs(light_.film - shaded_.film) > static_cast<double>(kLightStep) ||
+                        flash_moved(flash_cd_m2, shaded_.flash_cd_m2, adaptation);
     const bool toned =
         std::abs(adaptation - shaded_.adaptation_cd_m2) > kAdaptationStep * shaded_.adaptation_cd_m2 ||
         exposure_exponent_ != shaded_.exposure_exponent;
@@ -286,6 +320,8 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         shaded_.moon_scale = light_.moon.scale_xyz;
         shaded_.moon_from_sun_rad = wanted.second_azimuth_rad;
         shaded_.night_share = light_.night_share;
+        shaded_.flash_cd_m2 = flash_cd_m2;
+        shaded_.film = light_.film;
     }
     if (replaced || scaled || toned) {
         dome_.encode(tones_);

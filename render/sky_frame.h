@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/cloud/lightning.h"
 #include "render/cloud_frame.h"
 #include "render/clouds.h"
 #include "render/display.h"
@@ -59,6 +60,8 @@ class SkyFrame {
     // All of this is the prepared frame's.
     [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
     [[nodiscard]] const SkyLight& light() const noexcept { return light_; }
+    /// Lightning that shines, for whoever draws the clouds.
+    [[nodiscard]] const cloud::Flashes& flashes() const noexcept { return flashes_; }
     /// What turns light into the target's values.
     [[nodiscard]] const shaders64::ToneParameters& tone(std::size_t screen = 0) const noexcept {
         return tones_[screen];
@@ -119,6 +122,7 @@ class SkyFrame {
     [[nodiscard]] glm::dvec3 exact_dome_colour(const glm::dvec3& direction_enu, std::size_t screen = 0) const;
 
   private:
+    void take_weather(const Scene& scene) noexcept;
     void refresh_milky_way(const Scene& scene);
     void refresh_clouds(const Scene& scene, double pixel_rad);
     void tone_clouds() noexcept;
@@ -165,6 +169,7 @@ class SkyFrame {
 
     Plan plan_;
     SkyLight light_;
+    cloud::Flashes flashes_;
     std::array<double, eye::kProbeCount> probes_cd_m2_{};
     std::vector<shaders64::ToneParameters> display_tones_;
     std::vector<shaders64::ToneParameters> tones_;  // of the target
@@ -192,6 +197,8 @@ class SkyFrame {
         glm::vec3 moon_scale{-1.0F};
         double moon_from_sun_rad = 0.0;
         float night_share = 0.0F;
+        float flash_cd_m2 = 0.0F;
+        double film = 0.0;
     } shaded_;
 };
 
