@@ -82,6 +82,12 @@ bool FrameLoop::run_frame() {
     if (!wanted) parts_.log.notice("a window was closed: the daemon ends");
     if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images();
     if (parts_.hashes != nullptr) hash_images();
+    if (parts_.preview != nullptr) {
+        parts_.preview->offer(parts_.clock.monotonic_ns(),
+                              [this](std::size_t channel, std::span<std::byte> rgba) {
+                                  parts_.painter.read_back(channel, rgba);
+                              });
+    }
 
     times.output_ns = stopwatch.lap_ns();
     last_end_ns_ = start_ns + times.duration_ns();

@@ -215,6 +215,23 @@ struct SkyOptions {
     std::string out_path;
 };
 
+/// skyig cloud: light of a slab of cloud, for one case or a table of them.
+struct CloudOptions {
+    /// Of render::cloud::kSlabModelNames, already checked.
+    std::string model = "table";
+    /// "-" = standard input; empty = the one case below.
+    std::string cases_path;
+    /// Empty or "-" = standard output.
+    std::string out_path;
+    std::optional<double> optical_depth;
+    double g = 0.85;
+    double albedo = 1.0;
+    double sun_zenith_deg = 0.0;
+    double view_zenith_deg = 0.0;
+    double rel_azimuth_deg = 0.0;
+    bool json = false;
+};
+
 /// skyig tone: luminances through the shader's tone curve.
 struct ToneOptions {
     /// Of render::kToneOperatorNames, already checked.
@@ -236,8 +253,8 @@ struct ToneOptions {
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
     std::variant<std::monostate, HostOptions, ShotOptions, PlanOptions, ChannelsOptions, BenchOptions,
-                 EphemOptions, DecodeOptions, MetarOptions, ReplayOptions, RecordOptions, SkyOptions,
-                 StatusOptions, ToneOptions>
+                 EphemOptions, CloudOptions, DecodeOptions, MetarOptions, ReplayOptions, RecordOptions,
+                 SkyOptions, StatusOptions, ToneOptions>
         options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)
