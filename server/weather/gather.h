@@ -11,7 +11,7 @@
 
 namespace skyig::server::weather {
 
-/// Works in storage of its own: allocates at construction only. 0.1 microseconds a region and a layer.
+/// Works in storage of its own: allocates at construction only. Half a microsecond a region and its layer.
 class Gatherer {
   public:
     /// Kept at most.

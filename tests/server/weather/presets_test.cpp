@@ -128,6 +128,23 @@ TEST(Presets, EveryNameHasAFileAndItsTextIsCompiledIn) {
         EXPECT_EQ(with(std::string(name)).weather.preset, name);
 }
 
+TEST(Presets, TheirLayersAreAsAHostsAndComeBackAfterStandby) {
+    config::Config config = world::three_channels();
+    ASSERT_EQ(config::apply_preset("broken", config), "");
+    config.weather.elevation_m = 400.0;
+    config.weather.transition_s = 0.0;
+    WeatherBench bench(config);
+    EXPECT_NEAR(bench.frame().weather.clouds[0].base_m, 400.0 + 2000.0 * kFoot_m, 1e-3);
+    cigi::WeatherControl off = cloud(1, cigi::CloudType::kCumulus, 1000.0F, 10.0F);
+    off.weather_enable = false;
+    bench.send(off);
+    EXPECT_EQ(bench.frame().weather.cloud_count, 0U);
+    bench.host.mode = cigi::IgMode::kStandby;
+    bench.send();
+    EXPECT_EQ(bench.frame().weather.cloud_count, 1U);
+    EXPECT_NEAR(bench.weather().clouds[0].coverage, 0.75, 1e-6);
+}
+
 TEST(Presets, AFileOfOnesOwnIsOneToo) {
     const std::filesystem::path path = std::filesystem::temp_directory_path() / "skyig_preset_test.toml";
     std::ofstream(path) << "version = 1\n[air]\nvisibility_m = 7000\n[[weather.layer]]\ntype = \"stratus\"\n"

@@ -93,7 +93,6 @@ TEST(Ramps, AnotherGenusFadesInWhileTheOldFadesOut) {
     bench.send(cloud(1, CloudType::kCumulus, 1000.0F, 50.0F));
     bench.settle();
     bench.send(cloud(1, CloudType::kStratus, 1000.0F, 100.0F));
-    bench.frame();
     for (int i = 0; i < 5; ++i)
         bench.frame(1.0);
     ASSERT_EQ(bench.weather().cloud_count, 2U);
@@ -116,7 +115,6 @@ TEST(Ramps, AVisibilityOfTheAirChangesAsExtinction) {
     EXPECT_EQ(bench.scene.air.visibility_m, 50'000.0);
     air.visibility = 2000.0F;
     bench.send(air);
-    bench.frame();
     for (int i = 0; i < 5; ++i)
         bench.frame(1.0);
     EXPECT_NEAR(1.0 / bench.scene.air.visibility_m, 0.5 * (1.0 / 50e3 + 1.0 / 2e3), 1e-12);
