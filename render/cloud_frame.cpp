@@ -18,9 +18,9 @@ constexpr double kUsual_m = 10e3;
 
 cloud::ToneLaw law_of(const shaders64::ToneParameters& tone) noexcept {
     const auto f = [](double x) { return static_cast<float>(x); };
-    return {f(tone.log2_gain), f(tone.exponent),        f(tone.compression),
-            f(tone.burn),      f(tone.photopic),        f(tone.inv_display_max),
-            f(tone.ambient),   f(tone.shoulder),        f(tone.encode_power)};
+    return {f(tone.log2_gain), f(tone.exponent), f(tone.compression),
+            f(tone.burn),      f(tone.photopic), f(tone.inv_display_max),
+            f(tone.ambient),   f(tone.shoulder), f(tone.encode_power)};
 }
 
 // Whether some component of the light changes by more than an eighth from node to node.
@@ -87,8 +87,8 @@ void CloudFrame::follow(cloud::CloudMaker& maker, const Scene& scene, const clou
     for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
         const eye::ProbeDirection& probe = eye::probe_directions()[i];
         const double elevation_rad = light.horizon_elevation_rad + probe.above_horizon_rad;
-        probes_[i] = glm::vec3{direction_of(
-            {std::min(elevation_rad, 0.5 * std::numbers::pi - 1e-4), probe.azimuth_rad})};
+        probes_[i] = glm::vec3{
+            direction_of({std::min(elevation_rad, 0.5 * std::numbers::pi - 1e-4), probe.azimuth_rad})};
     }
     probes_[eye::kProbeCount] = glm::vec3{body_direction(light, scene.sun.direction_enu)};
     probes_[eye::kProbeCount + 1] = glm::vec3{body_direction(light, scene.moon.direction_enu)};
@@ -157,9 +157,8 @@ void CloudFrame::look_up(int tile, const SkyLight& light, const DeferredAir& air
         if (middle_rad + reach_rad > 0.0) backdrop.sky[i] = rgb(Side::kSky);
         if (middle_rad - reach_rad < 0.0) backdrop.ground[i] = rgb(Side::kGround);
         if (middle_rad + reach_rad <= 0.0) backdrop.sky[i] = backdrop.ground[i];
-        const auto inverse_m = static_cast<double>(
-            latest.inverse_distance(column / cloud::Snapshot::kNodeStep, row / cloud::Snapshot::kNodeStep,
-                                    corner.lower));
+        const auto inverse_m = static_cast<double>(latest.inverse_distance(
+            column / cloud::Snapshot::kNodeStep, row / cloud::Snapshot::kNodeStep, corner.lower));
         const double distance_m = inverse_m > 0.0 ? length / inverse_m : kUsual_m;
         const auto between = air.between(direction / length, distance_m);
         const glm::dvec3 kept = glm::max(glm::dvec3{1.0} - between.passed_rgb, glm::dvec3{1e-6});
@@ -222,8 +221,8 @@ Fold fold_of(const MapGeometry::Texel& corner, int size) noexcept {
     return corner.column + corner.row == size - kTile ? Fold::kRising : Fold::kNone;
 }
 
-// One row of texels from nodes, kNodeStep texels apart: linear both ways, but over two triangles in cells that the
-// fold goes through.
+// One row of texels from nodes, kNodeStep texels apart: linear both ways, but over two triangles in cells
+// that the fold goes through.
 template <class At>
 void spread(Fold fold, int row, At at, float* out) noexcept {
     constexpr int kStep = cloud::Snapshot::kNodeStep;
@@ -246,7 +245,8 @@ void spread(Fold fold, int row, At at, float* out) noexcept {
         for (int i = 0; i < kStep; ++i) {
             const float right = static_cast<float>(i) * kShare;
             if (falling)
-                texels[i] = right > down ? a + right * (b - a) + down * (d - b) : a + down * (c - a) + right * (d - c);
+                texels[i] = right > down ? a + right * (b - a) + down * (d - b)
+                                         : a + down * (c - a) + right * (d - c);
             else
                 texels[i] = right + down < 1.0F ? a + right * (b - a) + down * (c - a)
                                                 : d + (1.0F - right) * (c - d) + (1.0F - down) * (b - d);
@@ -262,16 +262,19 @@ void CloudFrame::gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRo
     const auto parts = map_.parts();
     const Fold fold = fold_of(corner, geometry.size());
     float near_passed[kTile];
-    spread(fold, row, [&](std::size_t i) { return nodes.near[i].v[3]; }, near_passed);
+    spread(
+        fold, row, [&](std::size_t i) { return nodes.near[i].v[3]; }, near_passed);
     float near_share = 0.0F;
     float inverse_m[2][kTile];
     for (std::size_t part = 0; part < parts.size(); ++part) {
-        spread(fold, row, [&](std::size_t i) { return nodes.inverse_m[part][i]; }, inverse_m[part]);
+        spread(
+            fold, row, [&](std::size_t i) { return nodes.inverse_m[part][i]; }, inverse_m[part]);
         near_share += parts[part].beyond_near ? parts[part].weight : 0.0F;
     }
     for (int c = 0; c < 3; ++c) {
-        spread(fold, row, [&](std::size_t i) { return near_share * nodes.near[i].v[c]; },
-               out.smooth[cloud::kNearLight + c]);
+        spread(
+            fold, row, [&](std::size_t i) { return near_share * nodes.near[i].v[c]; },
+            out.smooth[cloud::kNearLight + c]);
     }
     const float scale = 2.0F / static_cast<float>(geometry.size() - 1);
     const float y = static_cast<float>(corner.row + row) * scale - 1.0F;
@@ -284,8 +287,7 @@ void CloudFrame::gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRo
         float reach_m = 0.0F;
         for (std::size_t k = 0; k < parts.size(); ++k) {
             const auto& part = parts[k];
-            const cloud::Snapshot::Seen seen =
-                part.snapshot->seen(direction, inverse_m[k][i], part.offset_m);
+            const cloud::Snapshot::Seen seen = part.snapshot->seen(direction, inverse_m[k][i], part.offset_m);
             const float factor = part.beyond_near ? part.weight * near_passed[i] : part.weight;
             sum += seen.light * factor;
             opacity += factor * (1.0F - seen.light[3]);
@@ -312,7 +314,8 @@ void CloudFrame::show_behind(const Backdrop& backdrop, Behind& behind) const noe
     if (backdrop.horizon) show(backdrop.ground, behind.ground);
 }
 
-// One screen's rig has the codes behind at the nodes; where they bend, and for several screens, they are worked out.
+// One screen's rig has the codes behind at the nodes; where they bend, and for several screens, they are
+// worked out.
 void CloudFrame::tone_tile(int tile, const SkyLight& light, std::size_t first) noexcept {
     const Backdrop& backdrop = backdrops_[static_cast<std::size_t>(tile)];
     Nodes nodes;
@@ -332,7 +335,8 @@ void CloudFrame::tone_tile(int tile, const SkyLight& light, std::size_t first) n
         for (int c = 0; c < 3; ++c) {
             lay([&](std::size_t i) { return backdrop.sky[i][c]; }, row.smooth[cloud::kBehind + c]);
             lay([&](std::size_t i) { return backdrop.extinction[i][c]; }, row.smooth[cloud::kExtinction + c]);
-            lay([&](std::size_t i) { return backdrop.convergence[i][c]; }, row.smooth[cloud::kConvergence + c]);
+            lay([&](std::size_t i) { return backdrop.convergence[i][c]; },
+                row.smooth[cloud::kConvergence + c]);
             if (by_nodes) lay([&](std::size_t i) { return behind.sky[c][i]; }, codes[c]);
             if (!backdrop.horizon) continue;
             // The ground shows below the horizon.
@@ -341,7 +345,8 @@ void CloudFrame::tone_tile(int tile, const SkyLight& light, std::size_t first) n
             lay([&](std::size_t i) { return backdrop.ground[i][c]; }, ground);
             if (by_nodes) lay([&](std::size_t i) { return behind.ground[c][i]; }, ground_codes);
             for (int i = 0; i < kTile; ++i) {
-                const glm::dvec3 direction{geometry.direction(corner.column + i, corner.row + y, corner.lower)};
+                const glm::dvec3 direction{
+                    geometry.direction(corner.column + i, corner.row + y, corner.lower)};
                 if (direction.z > horizon_sine * glm::length(direction)) continue;
                 row.smooth[cloud::kBehind + c][i] = ground[i];
                 if (by_nodes) codes[c][i] = ground_codes[i];
@@ -354,8 +359,8 @@ void CloudFrame::tone_tile(int tile, const SkyLight& light, std::size_t first) n
     }
 }
 
-// Whether a tile of the texture still shows what it should: nothing has changed but the eye's place, and that by
-// less than a quarter of a fine pixel.
+// Whether a tile of the texture still shows what it should: nothing has changed but the eye's place, and that
+// by less than a quarter of a fine pixel.
 bool CloudFrame::serves(int tile, std::uint64_t tone_revision) const noexcept {
     const Made& made = made_[static_cast<std::size_t>(tile)];
     if (!made.clouded || made.tone != tone_revision || made.map != map_.revision()) return false;

@@ -49,9 +49,7 @@ class CloudFrame {
     [[nodiscard]] const cloud::CloudMap& map() const noexcept { return map_; }
     /// The same for all screens.
     [[nodiscard]] std::span<const TonedTile> toned() const noexcept { return toned_; }
-    [[nodiscard]] std::span<const float> texels(std::size_t screen) const noexcept {
-        return texels_[screen];
-    }
+    [[nodiscard]] std::span<const float> texels(std::size_t screen) const noexcept { return texels_[screen]; }
     /// Rises when the map has got another size: all of it is clear until told otherwise.
     [[nodiscard]] std::uint64_t size_revision() const noexcept { return size_revision_; }
     /// Cones of the tiles that show clouds to a view.

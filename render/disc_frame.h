@@ -76,7 +76,8 @@ bool put_behind_clouds(DiscFrame& frame, Through through, Passed passed) {
     const auto seen = [&](float right, float up) {
         const glm::vec3 behind =
             frame.background_cd_m2 + right * frame.background_right + up * frame.background_up;
-        return glm::vec3{through(glm::dvec3{behind}, frame.direction_enu(frame.radius * glm::vec2{right, up}))};
+        return glm::vec3{
+            through(glm::dvec3{behind}, frame.direction_enu(frame.radius * glm::vec2{right, up}))};
     };
     const glm::vec3 left = seen(-1.0F, 0.0F), right = seen(1.0F, 0.0F);
     const glm::vec3 low = seen(0.0F, -1.0F), high = seen(0.0F, 1.0F);

@@ -85,8 +85,8 @@ void DomePatches::bound(std::span<const glm::vec3> directions) noexcept {
     }
 }
 
-std::span<const IndexRange> DomePatches::visible(const glm::dmat4& clip_from_dome,
-                                                 const QuadRows& rows, Marked which) noexcept {
+std::span<const IndexRange> DomePatches::visible(const glm::dmat4& clip_from_dome, const QuadRows& rows,
+                                                 Marked which) noexcept {
     const auto row = [&](int i) {
         return glm::dvec4{clip_from_dome[0][i], clip_from_dome[1][i], clip_from_dome[2][i],
                           clip_from_dome[3][i]};

@@ -24,7 +24,8 @@ class MilkyWayPass {
 
     /// Uploads what has changed. \param light  of the frame
     void prepare(const MilkyWay& milky_way, const SkyLight& light, bool dither);
-    /// Draws nothing where the belt is out of view. \param clouds  the map that is bound; null: there are none
+    /// Draws nothing where the belt is out of view. \param clouds  the map that is bound; null: there are
+    /// none
     void draw(MilkyWay& milky_way, const Channel& channel, std::size_t screen,
               const glm::dmat4& clip_from_enu, const CloudPass* clouds);
 
@@ -44,7 +45,7 @@ class MilkyWayPass {
 
     Variant plain_;
     std::optional<Clouded> clouded_;  // once it is needed
-    std::vector<gl::Mesh> meshes_;  // one a screen
+    std::vector<gl::Mesh> meshes_;    // one a screen
     std::optional<gl::Texture> map_;
     std::uint64_t map_revision_ = 0;
     glm::dmat3 enu_from_galactic_{1.0};

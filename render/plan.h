@@ -108,8 +108,8 @@ struct Plan {
 /// `held` while that is not clearly too fine. \param held  the dome in use
 [[nodiscard]] DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& quality) noexcept;
 
-/// Decides on the cloud maps. \param map_size  texels on the side of a half; \param near_size  likewise \param
-/// near_shown  whether clouds may stand round the eye
+/// Decides on the cloud maps. \param map_size  texels on the side of a half; \param near_size  likewise
+/// \param near_shown  whether clouds may stand round the eye
 void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bool near_shown) noexcept;
 
 /// Decides on the waves of the sea, drawn over `resolution` of the dome's quads. \param waves  that a pixel

@@ -134,10 +134,8 @@ void Renderer::Impl::prepare_discs(std::size_t screen) {
     const shaders64::ToneParameters& tone = frame.tone(screen);
     const auto tone32 = eye::single_precision(tone);
     discs_screen = screen;
-    if (plan.needs(Pass::kCorona))
-        corona.prepare(scene, frame, pixel_rad, tone32, plan.corona_share);
-    if (plan.needs(Pass::kSunDisc))
-        sun_disc.prepare(scene, frame, pixel_rad, tone32, display.dither);
+    if (plan.needs(Pass::kCorona)) corona.prepare(scene, frame, pixel_rad, tone32, plan.corona_share);
+    if (plan.needs(Pass::kSunDisc)) sun_disc.prepare(scene, frame, pixel_rad, tone32, display.dither);
     if (plan.needs(Pass::kMoonDisc)) prepare_moon(screen);
     if (plan.needs(Pass::kSunGlare)) sun_glare.prepare(frame.sun_glare(screen), pixel_rad, display.dither);
     if (plan.needs(Pass::kMoonGlare)) moon_glare.prepare(frame.moon_glare(screen), pixel_rad, display.dither);
@@ -145,8 +143,7 @@ void Renderer::Impl::prepare_discs(std::size_t screen) {
 
 void Renderer::Impl::prepare_moon(std::size_t screen) {
     moon_disc.prepare(
-        scene, frame, pixel_rad, eye::single_precision(frame.tone(screen)),
-        display.dither,
+        scene, frame, pixel_rad, eye::single_precision(frame.tone(screen)), display.dither,
         moon_fovea(scene, frame.air(), frame.light(), frame.display(screen), frame.tone(screen)),
         frame.moon_glare(screen).limb());
 }

@@ -23,8 +23,8 @@ void StarPass::prepare(const Scene& scene, const SkyFrame& frame, double pixel_r
     mesh_.update({reinterpret_cast<const float*>(stars.data()), stars.size_bytes() / sizeof(float)});
 }
 
-void StarPass::draw(const Channel& channel, const ChannelView& view,
-                    const shaders32::ToneParameters& tone, const CloudPass* clouds) const {
+void StarPass::draw(const Channel& channel, const ChannelView& view, const shaders32::ToneParameters& tone,
+                    const CloudPass* clouds) const {
     const ImagePlane p = image_plane(view.frustum);
     const glm::dvec2 step{(p.right - p.left) / channel.width_px, (p.top - p.bottom) / channel.height_px};
     const double peak_per_sr =

@@ -132,7 +132,8 @@ void CloudMap::begin(CloudMaker& maker, const MapFrame& frame, double frames_ahe
 void CloudMap::list_tiles(std::span<const ChannelView> views, double margin_rad, std::vector<int>& tiles) {
     tiles.clear();
     for (int tile = 0; tile < geometry_.tile_count(); ++tile) {
-        if (sees(views, cone(tile), margin_rad) && (margin_rad > 0.0 || sees(views, corners_[static_cast<std::size_t>(tile)])))
+        if (sees(views, cone(tile), margin_rad) &&
+            (margin_rad > 0.0 || sees(views, corners_[static_cast<std::size_t>(tile)])))
             tiles.push_back(tile);
     }
 }
@@ -205,7 +206,8 @@ void CloudMap::fill_in() {
 
 void CloudMap::show_near(CloudMaker& maker, const MapFrame& frame) {
     const auto in_use = parts();
-    near_shown_ = std::any_of(in_use.begin(), in_use.end(), [](const Part& part) { return part.beyond_near; });
+    near_shown_ =
+        std::any_of(in_use.begin(), in_use.end(), [](const Part& part) { return part.beyond_near; });
     if (!near_shown_) return;
     Frozen frozen = frozen_at(frame, frame.moment.eye);
     frozen.range = {0.0F, static_cast<float>(kNearRange_m)};
@@ -254,10 +256,9 @@ bool CloudMap::may_show(int tile) const noexcept {
     const int row = corner.row / kTile;
     const int square = across * across;
     const auto clouded = [&](int index) {
-        return std::any_of(parts_.begin(), parts_.begin() + static_cast<std::ptrdiff_t>(part_count_),
-                           [&](const Part& part) {
-                               return part.snapshot->tile(index) == Snapshot::Tile::kCloud;
-                           });
+        return std::any_of(
+            parts_.begin(), parts_.begin() + static_cast<std::ptrdiff_t>(part_count_),
+            [&](const Part& part) { return part.snapshot->tile(index) == Snapshot::Tile::kCloud; });
     };
     // What lies in a neighbour may be seen here from the present eye. On the rim both squares have it.
     const int own = corner.lower ? square : 0;
@@ -291,8 +292,8 @@ void add_part(CloudMap::Sight& sight, const CloudMap::Part& part, const LightAnd
 
 CloudMap::Sight CloudMap::sight(const glm::dvec3& direction_enu) const noexcept {
     if (part_count_ == 0) return {};
-    const glm::vec3 direction{direction_enu / (std::abs(direction_enu.x) + std::abs(direction_enu.y) +
-                                               std::abs(direction_enu.z))};
+    const glm::vec3 direction{
+        direction_enu / (std::abs(direction_enu.x) + std::abs(direction_enu.y) + std::abs(direction_enu.z))};
     Sight sight;
     sight.transmittance = 0.0;
     const LightAndPassed::Lanes near_light =
@@ -321,7 +322,8 @@ CloudMap::Sight CloudMap::probe(std::size_t index) const noexcept {
     return sight;
 }
 
-CloudMap::Sight CloudMap::sight_or_probe(const glm::dvec3& direction_enu, std::size_t probe_index) const noexcept {
+CloudMap::Sight CloudMap::sight_or_probe(const glm::dvec3& direction_enu,
+                                         std::size_t probe_index) const noexcept {
     if (part_count_ == 0) return {};
     const glm::vec2 place = shaders32::cloud_map_place(glm::vec3{direction_enu});
     const auto at = [&](float p) {
@@ -331,10 +333,9 @@ CloudMap::Sight CloudMap::sight_or_probe(const glm::dvec3& direction_enu, std::s
     };
     const int across = geometry_.tiles_across();
     const int tile = (direction_enu.z < 0.0 ? across * across : 0) + at(place.y) * across + at(place.x);
-    const bool known = std::all_of(parts_.begin(), parts_.begin() + static_cast<std::ptrdiff_t>(part_count_),
-                                   [&](const Part& part) {
-                                       return part.snapshot->tile(tile) != Snapshot::Tile::kUnknown;
-                                   });
+    const bool known =
+        std::all_of(parts_.begin(), parts_.begin() + static_cast<std::ptrdiff_t>(part_count_),
+                    [&](const Part& part) { return part.snapshot->tile(tile) != Snapshot::Tile::kUnknown; });
     return known ? sight(direction_enu) : probe(probe_index);
 }
 

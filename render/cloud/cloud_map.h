@@ -1,8 +1,8 @@
 // What clouds make of each direction that the rig sees, once for all channels: snapshots from frozen eyes are
 // marched tile by tile over frames on a thread of their own; a finished one takes the place of the one before
 // it over some frames. Both are seen from the present eye. What a frame sees depends on the frames before it
-// alone, never on measured time: a batch of tiles asked for in one frame is taken in the next one, which waits
-// if it must. Free of GL and of tone.
+// alone, never on measured time: a batch of tiles asked for in one frame is taken in the next one, which
+// waits if it must. Free of GL and of tone.
 #pragma once
 
 #include <array>
@@ -48,9 +48,7 @@ class CloudMap {
     void stop() noexcept;
 
     [[nodiscard]] const MapGeometry& geometry() const noexcept { return geometry_; }
-    [[nodiscard]] const Cone& cone(int tile) const noexcept {
-        return cones_[static_cast<std::size_t>(tile)];
-    }
+    [[nodiscard]] const Cone& cone(int tile) const noexcept { return cones_[static_cast<std::size_t>(tile)]; }
 
     /// A snapshot that takes part in what is seen.
     struct Part {

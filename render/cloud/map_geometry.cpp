@@ -26,8 +26,8 @@ Cone MapGeometry::cone(int tile) const noexcept {
     std::array<glm::dvec3, 25> around{};
     glm::dvec3 sum{0.0};
     for (int i = 0; i < 25; ++i) {
-        around[static_cast<std::size_t>(i)] = glm::normalize(
-            glm::dvec3{direction(at.column + place(i % 5), at.row + place(i / 5), at.lower)});
+        around[static_cast<std::size_t>(i)] =
+            glm::normalize(glm::dvec3{direction(at.column + place(i % 5), at.row + place(i / 5), at.lower)});
         sum += around[static_cast<std::size_t>(i)];
     }
     Cone cone{glm::normalize(sum), 1.0, 0.0};

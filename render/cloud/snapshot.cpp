@@ -48,9 +48,9 @@ glm::vec3 Snapshot::straight(const glm::vec3& seen) const noexcept {
     const glm::dvec3 unit = glm::normalize(glm::dvec3{seen});
     if (unit.z >= 0.0) return glm::vec3{unit};
     const Horizontal at = horizontal_of(unit);
-    return glm::vec3{direction_of({straight_elevation_rad(at.elevation_rad, frozen_.seen_horizon_rad,
-                                                          frozen_.straight_horizon_rad),
-                                   at.azimuth_rad})};
+    return glm::vec3{direction_of(
+        {straight_elevation_rad(at.elevation_rad, frozen_.seen_horizon_rad, frozen_.straight_horizon_rad),
+         at.azimuth_rad})};
 }
 
 void Snapshot::clear(int tile) noexcept {
@@ -72,9 +72,8 @@ void Snapshot::march(const CloudSource& source, int tile) noexcept {
         return straight(geometry_.direction(corner.column + column, corner.row + row, corner.lower));
     };
     const glm::vec3 middle = direction(kTile / 2, kTile / 2);
-    const float texel_rad =
-        std::max(glm::length(direction(kTile / 2 + 1, kTile / 2) - middle),
-                 glm::length(direction(kTile / 2, kTile / 2 + 1) - middle));
+    const float texel_rad = std::max(glm::length(direction(kTile / 2 + 1, kTile / 2) - middle),
+                                     glm::length(direction(kTile / 2, kTile / 2 + 1) - middle));
 
     std::array<CloudRay, kTileTexels> rays;
     std::array<CloudSample, kTileTexels> samples;
@@ -122,8 +121,8 @@ void Snapshot::gather_tile(int tile) noexcept {
         const std::size_t from = geometry_.index({column, row, corner.lower});
         const float opacity = 1.0F - light_[from].v[3];
         if (!(reach_m_[from] > 0.0F) || opacity < 1e-4F) continue;
-        const std::size_t node = node_index((column + kNodeStep / 2) / kNodeStep,
-                                            (row + kNodeStep / 2) / kNodeStep, corner.lower);
+        const std::size_t node =
+            node_index((column + kNodeStep / 2) / kNodeStep, (row + kNodeStep / 2) / kNodeStep, corner.lower);
         const float length = glm::length(geometry_.direction(column, row, corner.lower));
         inverse_m_[node] += opacity * length * opacity / reach_m_[from];
         weight_[node] += opacity;

@@ -30,10 +30,10 @@ enum ToneChannel {
 };
 
 struct ToneRow {
-    float light[3][kToneRow];   ///< of clouds, without the air between
-    float opacity[kToneRow];    ///< of them; both of far clouds, dimmed by near ones
-    float passed[kToneRow];     ///< of all light behind, by all clouds
-    float reach_m[kToneRow];    ///< distance times opacity
+    float light[3][kToneRow];  ///< of clouds, without the air between
+    float opacity[kToneRow];   ///< of them; both of far clouds, dimmed by near ones
+    float passed[kToneRow];    ///< of all light behind, by all clouds
+    float reach_m[kToneRow];   ///< distance times opacity
     float smooth[kToneChannels][kToneRow];
 };
 

@@ -180,8 +180,8 @@ Scene clouded(double eye_m, CloudGenus genus, CloudModel model, double coverage)
     return scene;
 }
 
-// What the channels of a rig cost in clouds. Drawing is timed with an eye that stands still, for which nothing is
-// kept up; upkeep is all else that one at 200 m/s costs on all threads, beyond a clear sky.
+// What the channels of a rig cost in clouds. Drawing is timed with an eye that stands still, for which
+// nothing is kept up; upkeep is all else that one at 200 m/s costs on all threads, beyond a clear sky.
 void print_clouds(const std::string& name, Scene scene, double pitch_deg, std::size_t channels, int rounds) {
     std::vector<Channel> list;
     for (std::size_t i = 0; i < channels; ++i) {
@@ -223,10 +223,11 @@ void print_clouds(const std::string& name, Scene scene, double pitch_deg, std::s
         rays.push_back(report->cloud_rays);
         tiles.push_back(static_cast<double>(report->cloud_tiles));
     }
-    std::printf("%-15s %zu ch: draw %.2f writes, of cpu %.2f (clear sky %.2f); upkeep of cpu %.2f: %.0f rays, %.0f "
-                "tiles toned\n",
-                name.c_str(), channels, median(draws), median(draws_of_cpu), median(clear_draws), median(upkeep),
-                median(rays), median(tiles));
+    std::printf(
+        "%-15s %zu ch: draw %.2f writes, of cpu %.2f (clear sky %.2f); upkeep of cpu %.2f: %.0f rays, %.0f "
+        "tiles toned\n",
+        name.c_str(), channels, median(draws), median(draws_of_cpu), median(clear_draws), median(upkeep),
+        median(rays), median(tiles));
 }
 
 void print_all_clouds(int rounds) {

@@ -30,12 +30,14 @@ TEST(CloudMapGeometry, PlacesAndDirectionsAreInverseAndTheRimIsCommon) {
         const glm::vec2 single = shaders32::cloud_map_place(glm::vec3{direction});
         worst_float = std::max(worst_float, glm::length(glm::dvec2{single} - place));
     }
-    std::printf("there and back %.1e rad; float against double %.1e of a square's half\n", worst, worst_float);
+    std::printf("there and back %.1e rad; float against double %.1e of a square's half\n", worst,
+                worst_float);
     EXPECT_LT(worst, 1e-14);
     EXPECT_LT(worst_float, 1e-6);
     const MapGeometry geometry(512);
     for (int i = 0; i < 512; ++i) {
-        EXPECT_EQ(geometry.direction(i, 0, false), geometry.direction(i, 0, true) * glm::vec3(1.0F, 1.0F, -1.0F));
+        EXPECT_EQ(geometry.direction(i, 0, false),
+                  geometry.direction(i, 0, true) * glm::vec3(1.0F, 1.0F, -1.0F));
         EXPECT_NEAR(geometry.direction(i, 0, false).z, 0.0F, 1e-7F);
     }
 }
@@ -148,7 +150,8 @@ TEST(CloudAdaptation, IsToWhatIsSeenOfCloudsToo) {
         SkyFrame frame(display, coarse());
         frame.draw_clouds(fake_clouds(fog));
         frame.prepare(scene, 1.8e-3);
-        std::printf("clear %.0f cd/m2, in fog of 700: %.1f\n", clear.adaptation_cd_m2(), frame.adaptation_cd_m2());
+        std::printf("clear %.0f cd/m2, in fog of 700: %.1f\n", clear.adaptation_cd_m2(),
+                    frame.adaptation_cd_m2());
         EXPECT_GT(clear.adaptation_cd_m2(), 1500.0);
         EXPECT_NEAR(frame.adaptation_cd_m2(), 700.0, 7.0);
     }

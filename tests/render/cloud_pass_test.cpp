@@ -52,7 +52,8 @@ class CloudPicture : public GlTest {
 int largest_step(const Picture& a, const Picture& b) {
     int largest = 0;
     for (std::size_t i = 0; i < a.rgba.size(); ++i)
-        largest = std::max(largest, std::abs(std::to_integer<int>(a.rgba[i]) - std::to_integer<int>(b.rgba[i])));
+        largest =
+            std::max(largest, std::abs(std::to_integer<int>(a.rgba[i]) - std::to_integer<int>(b.rgba[i])));
     return largest;
 }
 
@@ -144,7 +145,10 @@ Scene flown(Scene scene, int frame) {
 }
 
 TEST_F(CloudPicture, FollowsTheEyeWithinTwoPixelsAndWithoutSteps) {
-    const FakeSheet sheet{.height_m = 3000.0, .wavelength_m = 3000.0, .least_transmittance = 0.2, .most_transmittance = 1.0,
+    const FakeSheet sheet{.height_m = 3000.0,
+                          .wavelength_m = 3000.0,
+                          .least_transmittance = 0.2,
+                          .most_transmittance = 1.0,
                           .light_cd_m2 = glm::vec3{25e3F}};
     Scene scene = noon(1000.0, 35.0);
     add_layer(scene, sheet);
@@ -184,8 +188,9 @@ TEST_F(CloudPicture, FollowsTheEyeWithinTwoPixelsAndWithoutSteps) {
         const double own_rad = pixel_angle_rad({"", kWidth, kHeight, {}}, now.views[0].frustum);
         worst_px = std::max(worst_px, std::sqrt(off / std::max(slope, 1.0)) * own_rad / kPixel_rad);
     }
-    std::printf("250 m/s, 2 km below: off by %.2f px of 60 deg / 1280; steps %d codes, of exact pictures %d\n",
-                worst_px, largest, exact_step);
+    std::printf(
+        "250 m/s, 2 km below: off by %.2f px of 60 deg / 1280; steps %d codes, of exact pictures %d\n",
+        worst_px, largest, exact_step);
     EXPECT_LE(worst_px, 2.0);
     EXPECT_LE(largest, exact_step + 2);
 }
@@ -221,7 +226,8 @@ TEST_F(CloudPicture, LightOfItIsWhatTheDisplayShowsWithinACode) {
     std::vector<double> off;
     for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x) {
-            const float* light = &rgb[(static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)) * 3];
+            const float* light =
+                &rgb[(static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)) * 3];
             const glm::dvec3 code = 255.0 * shaders64::shown({light[0], light[1], light[2]}, tone);
             const Rgb shown = picture.at(x, y);
             const glm::dvec3 apart = glm::abs(code - glm::dvec3{shown.r, shown.g, shown.b});

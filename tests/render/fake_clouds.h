@@ -1,5 +1,5 @@
-// Clouds of closed form for the tests of what draws them: one level sheet over a flat Earth, without thickness,
-// whose transmittance waves over the ground; or fog everywhere.
+// Clouds of closed form for the tests of what draws them: one level sheet over a flat Earth, without
+// thickness, whose transmittance waves over the ground; or fog everywhere.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 #include <memory>
 #include <numbers>
 
-#include "render/clouds.h"
 #include "render/cloud/snapshot.h"
+#include "render/clouds.h"
 
 namespace skyig::render::tests {
 
