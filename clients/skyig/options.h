@@ -49,6 +49,11 @@ struct StillOptions {
     std::optional<double> pitch_deg;
     std::optional<double> roll_deg;
     std::optional<double> visibility_m;
+    /// Name or path of a preset, or the text of a report, in place of the settings' weather; empty: that.
+    std::string weather_preset;
+    std::string metar;
+    /// That the heights of either count from.
+    std::optional<double> elevation_m;
     /// Of the day sky, in place of the settings' one.
     std::optional<config::SkyModel> sky_model;
     /// Of the one channel without settings.
@@ -140,6 +145,9 @@ struct MetarOptions {
     /// Reports, or the words of one; none, or "-" alone: lines of standard input.
     std::vector<std::string> reports;
     bool json = false;
+    /// Prints what skyig makes of it instead of what it says.
+    bool state = false;
+    double elevation_m = 0.0;
 };
 
 /// skyig replay: a capture's datagrams onto the network.

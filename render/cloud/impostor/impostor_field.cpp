@@ -90,6 +90,7 @@ ImpostorField::ImpostorField() {
     candidates_.reserve(kMostClouds);
     placed_.resize(kMostClouds);
     shaded_.resize(kMostNear * kMostParticles);
+    spheres_.resize(kMostNear);
     starts_.resize(kBins + 1);
     entries_.resize(kEntries);
 }
@@ -169,6 +170,7 @@ void ImpostorField::place(const ImpostorClouds& clouds, const Cloud& cloud, cons
         placed.near = static_cast<int>(near_used_);
         const std::span<Shaded> out{shaded_.data() + near_used_ * kMostParticles, kMostParticles};
         shade(clouds.particles(cloud), clouds.lit(cloud), clouds.shading(), placed.middle_m, out);
+        lay_out(out.first(cloud.particles), spheres_[near_used_]);
         near_counts_[near_used_++] = cloud.particles;
     }
     const double height_m = clouds.moment().layer.base_m + 0.5 * static_cast<double>(cloud.shape.height_m);
@@ -248,7 +250,7 @@ Texel ImpostorField::look(const Placed& cloud, const glm::vec3& ray, const Cloud
     if (cloud.near >= 0) {
         const auto near = static_cast<std::size_t>(cloud.near);
         const std::span<const Shaded> particles{shaded_.data() + near * kMostParticles, near_counts_[near]};
-        add_part(meet(particles, ray, range), 1.0F - cloud.boards_part, seen);
+        add_part(meet(particles, spheres_[near], ray, range), 1.0F - cloud.boards_part, seen);
     }
     return seen;
 }

@@ -88,6 +88,7 @@ class ImpostorField final : public CloudSource {
     std::vector<Placed> placed_;
     std::size_t placed_count_ = 0;
     std::vector<Shaded> shaded_;
+    std::vector<Spheres> spheres_;
     std::array<std::size_t, kMostNear> near_counts_{};
     std::size_t near_used_ = 0;
     /// Clouds by direction, the nearest first: entries_[starts_[bin]] .. entries_[starts_[bin + 1]].

@@ -40,12 +40,26 @@ struct Stamp {
     std::uint16_t gain;         ///< and adds
 };
 
+inline constexpr int kBatch = 16;
+
+/// Particles from the eye, as many as make whole batches.
+struct SphereTable {
+    const float* x;
+    const float* y;
+    const float* z;
+    const float* gap;  ///< squared distance less squared radius
+    int batches;
+};
+
 struct Kernels {
     const char* name;
     /// \param corner  of the stamp in the buffer
     void (*dim)(std::uint16_t* corner, int stride, const Stamp& stamp);
     /// Over what is there. Texels outside the picture are left out.
     void (*splat)(const Disc& disc, Texel* picture, int width, int height);
+    /// half2[i]: squared half of the way of a ray (three floats) through sphere i, below 0 where it misses.
+    /// \param any  of each batch: the largest
+    void (*halves)(const SphereTable& spheres, const float* ray, float* half2, float* any);
     /// Between four texels, at (x, y) in 0..1 from the first. \param weight  of the answer, added to `sum`
     void (*add)(const Texel* corner, int stride, float x, float y, float weight, Texel& sum);
 };

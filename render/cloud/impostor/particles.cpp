@@ -13,10 +13,10 @@ namespace {
 constexpr float kSmallest = 0.6F;  // radius of the least particle, of the largest one's
 // Overlapping particles: the lattice's mean density over that of one particle's middle is
 // 32 pi / 105 (radius / spacing)^3.
-constexpr float kOverlap = 1.25F;
+constexpr float kOverlap = 1.2F;
 constexpr float kMeanDensity = 0.957F * kOverlap * kOverlap * kOverlap;
-// Part of the box that a full-grown cloud fills.
-constexpr float kFilled = 0.52F;
+// Of a cell's box, what a cloud fills at most.
+constexpr float kFilled = 1.55F;
 constexpr double kUsualExtinction_per_m = 0.04;
 constexpr double kIceExtinction_per_m = 0.001;
 /// Shapes are new after about this time.
@@ -52,12 +52,14 @@ double cell_m(CloudGenus genus) {
 
 // A dome on a flat base, with bulges. Above 0 is cloud.
 float density(const CloudShape& shape, const glm::vec3& place, float grown, float noise) {
-    const float width = shape.half_width_m * std::sqrt(grown);
-    const float height = shape.height_m * (0.35F + 0.65F * grown);
+    const float own = std::min(grown, 1.0F);
+    const float width = shape.half_width_m * std::sqrt(own);
+    const float height = shape.height_m * (0.35F + 0.65F * own);
     const float up = (place.z + 0.5F * shape.height_m) / height;
     const float out = glm::length(glm::vec2{place.x, place.y}) / width;
     const float flare = 1.0F - 0.25F * up;
-    return 0.75F - out * out / (flare * flare) - 0.65F * up * up + 1.1F * noise;
+    // Past full growth gaps close and neighbours meet.
+    return 0.75F + 0.7F * (grown - own) - out * out / (flare * flare) - 0.65F * up * up + 1.1F * noise;
 }
 
 float softened(float x) {
@@ -71,14 +73,18 @@ CloudShape shape_of(const CloudLayer& layer) noexcept {
     CloudShape shape;
     const double thickness_m = std::max(layer.thickness_m, 30.0);
     shape.cell_m = cell_m(layer.genus);
-    shape.half_width_m = static_cast<float>(0.62 * shape.cell_m);
     shape.height_m = static_cast<float>(thickness_m);
-    const float box = 4.0F * shape.half_width_m * shape.half_width_m * shape.height_m;
-    shape.spacing_m = std::cbrt(box * kFilled / static_cast<float>(kMostParticles));
+    const auto cell = static_cast<float>(shape.cell_m);
+    shape.spacing_m = std::cbrt(cell * cell * shape.height_m * kFilled / static_cast<float>(kMostParticles));
     shape.radius_m = kOverlap * shape.spacing_m;
     const double told = layer.extinction_per_m;
     shape.extinction_per_m =
         static_cast<float>(told > 0.0 ? told : usual_extinction_per_m(layer.genus)) / kMeanDensity;
+    // Thick layers have larger and denser particles, which cover ground farther out: to where half the light
+    // passes.
+    const float clear = std::pow(0.693F / std::max(1.0F, shape.extinction_per_m * shape.radius_m), 0.4F);
+    const float reach_m = shape.radius_m * std::sqrt(1.0F - clear);
+    shape.half_width_m = 0.82F * cell - 2.1F * reach_m;
     shape.bound_m = std::hypot(shape.half_width_m * 1.2F, 0.5F * shape.height_m) + shape.radius_m;
     return shape;
 }
@@ -102,11 +108,12 @@ float growth(double coverage, std::uint32_t key) noexcept {
     if (!(coverage > 0.0)) return 0.0F;
     // Fewer and smaller clouds under little cover. Fitted to the measured part of the ground below opaque
     // cloud (particles_test).
-    constexpr std::array<double, 11> kReach{0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0};
+    constexpr std::array<double, 11> kReach{0.0,   0.525, 0.722, 0.876, 1.013, 1.151,
+                                            1.300, 1.472, 1.682, 1.988, 3.0};
     const double place = std::clamp(coverage, 0.0, 1.0) * 10.0;
     const auto low = std::min(static_cast<std::size_t>(place), kReach.size() - 2);
     const double reach = kReach[low] + (place - static_cast<double>(low)) * (kReach[low + 1] - kReach[low]);
-    return static_cast<float>(std::clamp(reach - static_cast<double>(chance(key, 3U)), 0.0, 1.0));
+    return static_cast<float>(std::clamp(reach - static_cast<double>(chance(key, 3U)), 0.0, 2.0));
 }
 
 std::size_t make_particles(const CloudShape& shape, std::uint32_t key, float grown, double age_s,
@@ -131,7 +138,7 @@ std::size_t make_particles(const CloudShape& shape, std::uint32_t key, float gro
                 const float lift = up == 0 ? 0.2F : 0.9F;
                 const glm::vec3 place = regular + jitter * glm::vec3{0.9F, 0.9F, lift} * step;
                 // Three octaves in -1..1 cannot lift this place into the cloud.
-                if (density(shape, place, grown, 0.6F) <= 0.0F) continue;
+                if (density(shape, place, grown, 0.55F) <= 0.0F) continue;
                 const float value =
                     density(shape, place, grown, layered_noise(glm::vec4{place * wave, time}, key));
                 if (value <= 0.0F) continue;

@@ -24,8 +24,8 @@ struct Particle {
     std::uint32_t key = 0;
 };
 
-/// Of any one cloud.
-inline constexpr std::size_t kMostParticles = 512;
+/// Of any one cloud; half as many make a full-grown one that stands alone.
+inline constexpr std::size_t kMostParticles = 1024;
 
 /// What all clouds of one layer have in common, and the footprints that follow from it.
 struct CloudShape {
@@ -55,7 +55,8 @@ struct CloudShape {
 /// Radius of the class `key`.
 [[nodiscard]] float class_radius_m(const CloudShape& shape, std::uint32_t key) noexcept;
 
-/// How grown the cloud of a cell is, 0 (none) .. 1. \param key  of the cell, see cell_key()
+/// How grown the cloud of a cell is: 0 none, 1 full, up to 2 grown together with its neighbours. \param key
+/// of the cell, see cell_key()
 [[nodiscard]] float growth(double coverage, std::uint32_t key) noexcept;
 
 /// \param east, north  whole cells from the anchor of the layer

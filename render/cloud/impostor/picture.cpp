@@ -118,18 +118,41 @@ void draw(std::span<const Shaded> particles, const Capture& capture, std::span<T
     }
 }
 
-Texel meet(std::span<const Shaded> particles, const glm::vec3& ray, const CloudRange& range) noexcept {
+void lay_out(std::span<const Shaded> particles, Spheres& spheres) noexcept {
+    const std::size_t count = std::min(particles.size(), kMostParticles);
+    spheres.batches = static_cast<int>((count + kBatch - 1) / kBatch);
+    const auto end = static_cast<std::size_t>(spheres.batches) * kBatch;
+    for (std::size_t i = 0; i < end; ++i) {
+        const bool real = i < count;
+        const glm::vec3 place = real ? particles[i].place_m : glm::vec3{0.0F};
+        spheres.x[i] = place.x;
+        spheres.y[i] = place.y;
+        spheres.z[i] = place.z;
+        // What fills up the last batch is met by no ray.
+        spheres.gap[i] = real ? glm::dot(place, place) - particles[i].radius_m * particles[i].radius_m : 1.0F;
+    }
+}
+
+Texel meet(std::span<const Shaded> particles, const Spheres& spheres, const glm::vec3& ray,
+           const CloudRange& range) noexcept {
+    alignas(64) std::array<float, kMostParticles> half2;
+    std::array<float, kMostParticles / kBatch> any;
+    kernels().halves(spheres.table(), &ray.x, half2.data(), any.data());
     Texel seen{};
-    for (const Shaded& particle : particles) {
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        if (i % kBatch == 0 && any[i / kBatch] <= 0.0F) {
+            i += kBatch - 1;
+            continue;
+        }
+        if (half2[i] <= 0.0F) continue;
+        const Shaded& particle = particles[i];
         const float along = glm::dot(particle.place_m, ray);
-        const float radius2 = particle.radius_m * particle.radius_m;
-        const float half2 = radius2 - (glm::dot(particle.place_m, particle.place_m) - along * along);
-        if (half2 <= 0.0F || along * std::abs(along) <= -half2) continue;
+        const float half = std::sqrt(half2[i]);
+        if (along <= -half) continue;
         const float distance = particle.colour.v[kDepth_m];
         if (distance < range.from_m || distance >= range.to_m) continue;
-        const float half = std::sqrt(half2);
         const float part = std::min(1.0F, 0.5F * (along + half) / half);
-        const float q = half2 / radius2;
+        const float q = half2[i] / (particle.radius_m * particle.radius_m);
         const float depth =
             particle.optical_depth * q * q * std::sqrt(q) * part * part * (3.0F - 2.0F * part);
         const float opacity = (1.0F - seen.v[kOpacity]) * -std::expm1(-depth);

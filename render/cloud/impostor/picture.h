@@ -2,6 +2,7 @@
 // met by a ray directly.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -23,6 +24,20 @@ struct Shaded {
 /// \param middle_m  of the cloud's box, from the eye \param out  as many as particles, the nearest first
 void shade(std::span<const Particle> particles, std::span<const Lit> lit, const Shading& shading,
            const glm::vec3& middle_m, std::span<Shaded> out) noexcept;
+
+/// The same particles' places, laid out for Kernels::halves.
+struct Spheres {
+    alignas(64) std::array<float, kMostParticles> x;
+    std::array<float, kMostParticles> y;
+    std::array<float, kMostParticles> z;
+    std::array<float, kMostParticles> gap;
+    int batches = 0;
+
+    [[nodiscard]] SphereTable table() const noexcept {
+        return {x.data(), y.data(), z.data(), gap.data(), batches};
+    }
+};
+void lay_out(std::span<const Shaded> particles, Spheres& spheres) noexcept;
 
 /// The plane that faced the eye when a picture was drawn, fixed to its cloud since.
 struct Capture {
@@ -57,8 +72,9 @@ inline constexpr int kSizeStep = 16;
 void draw(std::span<const Shaded> particles, const Capture& capture, std::span<Texel> picture) noexcept;
 
 /// What all particles make of a ray: the truth that pictures stand for. kDepth_m: distance times opacity.
-/// What the eye is inside of counts by the part that lies ahead. \param particles  nearest first
-[[nodiscard]] Texel meet(std::span<const Shaded> particles, const glm::vec3& ray,
+/// What the eye is inside of counts by the part that lies ahead. \param particles  nearest first \param
+/// spheres  laid out of them
+[[nodiscard]] Texel meet(std::span<const Shaded> particles, const Spheres& spheres, const glm::vec3& ray,
                          const CloudRange& range) noexcept;
 
 }  // namespace skyig::render::cloud::impostor
