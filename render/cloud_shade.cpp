@@ -43,7 +43,7 @@ CloudShade::CloudShade(const Weather& weather, double ground_albedo) noexcept
         layers_[count_++] = {cloud.base_m - 0.5 * cloud.bottom_band_m,
                              cloud.base_m + cloud.thickness_m + 0.5 * cloud.top_band_m, coverage,
                              static_cast<float>(extinction * cloud.thickness_m * mean_depth_part(coverage)),
-                             genus.g};
+                             genus.ice ? cloud::field::kIceG : cloud::field::kWaterG};
     }
     std::sort(layers_.begin(), layers_.begin() + static_cast<std::ptrdiff_t>(count_),
               [](const Layer& a, const Layer& b) { return a.base_m > b.base_m; });
