@@ -92,7 +92,8 @@ void DeferredAir::tell_sources(const Scene& scene, const Plan& plan, const SkyLi
     source_count_ = front_made_.count;
     for (std::size_t i = 0; i < source_count_; ++i) {
         const Body body = front_made_.lights[i].body;
-        const glm::dvec3 scale_xyz{shines(body, plan, light) ? air_of(body, light).scale_xyz
+        const LitAir& lit = air_of(body, light);
+        const glm::dvec3 scale_xyz{shines(body, plan, light) ? lit.clouded.at_eye * lit.scale_xyz
                                                              : glm::vec3{0.0F}};
         const glm::dmat3 scale{scale_xyz.x, 0.0, 0.0, 0.0, scale_xyz.y, 0.0, 0.0, 0.0, scale_xyz.z};
         sources_[i] = {direction_of(body, scene), kRec709FromXyz * scale * kXyzFromRec709};

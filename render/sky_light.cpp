@@ -16,13 +16,14 @@ glm::vec3 xyz_of(const LitAir& lit, double above_horizon_rad, double azimuth_rad
     if (lit.view == nullptr) return glm::vec3{0.0F};
     const auto elevation = static_cast<float>(lit.view->horizon_elevation_rad() + above_horizon_rad);
     const auto azimuth = static_cast<float>(azimuth_rad - lit.source.azimuth_rad);
-    if (!ground) return lit.scale_xyz * lit.view->xyz_above(elevation, azimuth);
+    const float share = lit.clouded.share(above_horizon_rad);
+    if (!ground) return share * lit.scale_xyz * lit.view->xyz_above(elevation, azimuth);
     glm::vec3 xyz = lit.view->xyz_below(elevation, azimuth);
     if (lit.sea != nullptr) {
         xyz += lit.sea->xyz(lit.sea->horizon_elevation_rad() + above_horizon_rad, azimuth_rad,
                             lit.source.azimuth_rad);
     }
-    return lit.scale_xyz * xyz;
+    return share * lit.scale_xyz * xyz;
 }
 
 // Of the angle between a ray and the ground where it meets it.
@@ -50,9 +51,10 @@ glm::vec3 dark_ground_cd_m2(const SkyLight& light, double straight_rad, double a
 glm::vec3 dark_sky(const SkyLight& light, double straight_rad, double azimuth_rad, bool ground) {
     if (light.night == nullptr) return glm::vec3{0.0F};
     const double above_rad = straight_rad - light.straight_horizon_rad;
-    return light.night_share * (ground ? light.night->before_ground(
-                                             dark_ground_cd_m2(light, straight_rad, azimuth_rad), above_rad)
-                                       : light.night->sky_rgb(above_rad, azimuth_rad));
+    const float share = light.night_share * light.night_clouded.share(above_rad);
+    return share * (ground ? light.night->before_ground(dark_ground_cd_m2(light, straight_rad, azimuth_rad),
+                                                        above_rad)
+                           : light.night->sky_rgb(above_rad, azimuth_rad));
 }
 
 // What the air leaves of the ground's light.
@@ -85,6 +87,14 @@ glm::vec3 film_cd_m2(const SkyLight& light, double elevation_rad, double azimuth
 LitBelt lit_belt(const Scene& scene, const night::MilkyWayMap& map, double night_share) noexcept {
     return {&map, night::galactic_from_gcrs() * glm::transpose(scene.stars.enu_from_gcrs),
             static_cast<float>(night_share * night::starlight_share(scene.night))};
+}
+
+float CloudedAir::share(double above_horizon_rad) const noexcept {
+    if (at_eye == 1.0F && at_ground == 1.0F) return 1.0F;
+    constexpr double kFade_rad = 0.05;
+    const auto near = static_cast<float>(std::exp(-std::abs(above_horizon_rad) / kFade_rad));
+    const float far = above_horizon_rad >= 0.0 ? 1.0F : at_ground;
+    return far + near * (at_eye - far);
 }
 
 double SkyLight::straight_elevation_rad(double elevation_rad) const noexcept {
@@ -137,11 +147,12 @@ SlopeLight SkyLight::of_slopes(double elevation_rad, double azimuth_rad) const n
         if (lit->view == nullptr || lit->sea == nullptr) continue;
         const auto slopes = lit->sea->of_slopes(lit->sea->horizon_elevation_rad() + above_rad, azimuth_rad,
                                                 lit->source.azimuth_rad);
-        sum.east += rec709_from_xyz(lit->scale_xyz * slopes.east_xyz);
-        sum.north += rec709_from_xyz(lit->scale_xyz * slopes.north_xyz);
-        sum.bend_cd_m2 += lit->scale_xyz.y * slopes.bend;
+        const float share = lit->clouded.share(above_rad);
+        sum.east += rec709_from_xyz(share * lit->scale_xyz * slopes.east_xyz);
+        sum.north += rec709_from_xyz(share * lit->scale_xyz * slopes.north_xyz);
+        sum.bend_cd_m2 += share * lit->scale_xyz.y * slopes.bend;
         if (lit != &glittering()) continue;
-        sum.glitter = rec709_from_xyz(lit->scale_xyz * slopes.glitter_xyz);
+        sum.glitter = rec709_from_xyz(std::min(lit->beam_share, share) * lit->scale_xyz * slopes.glitter_xyz);
         sum.density = slopes.density;
     }
     return sum;

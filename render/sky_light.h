@@ -16,6 +16,17 @@
 
 namespace skyig::render {
 
+/// What clouds leave of light as a mean over the area (CloudShade): of the air round the eye and of the
+/// ground. Each direction lies between: near the horizon it is seen through air of the eye's height, higher
+/// up through that above all clouds, lower down on the ground.
+struct CloudedAir {
+    float at_eye = 1.0F;
+    float at_ground = 1.0F;
+
+    /// Exactly 1 without clouds; continuous.
+    [[nodiscard]] float share(double above_horizon_rad) const noexcept;
+};
+
 /// A light source and the table of the air and ground it lights.
 struct LitAir {
     const sky::SkyRadiance* view = nullptr;  ///< null: this source lights nothing
@@ -24,6 +35,9 @@ struct LitAir {
     glm::vec3 scale_xyz{0.0F};
     /// What the sea reflects of it and of its sky; null over land. It lags as `view` does.
     const sky::SeaView* sea = nullptr;
+    CloudedAir clouded;
+    /// Of the beam that glitters on the ground, what clouds leave.
+    float beam_share = 1.0F;
 };
 
 /// What the Milky Way adds to even starlight.
@@ -72,6 +86,7 @@ struct SkyLight {
     /// The dark sky, null where it does not count, and how much of it is drawn.
     const night::NightSky* night = nullptr;
     float night_share = 1.0F;
+    CloudedAir night_clouded;
     LitBelt milky_way;
     /// What lightning adds to everything.
     cloud::FlashLight flash;

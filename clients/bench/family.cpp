@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "clients/bench/cloud_family.h"
 #include "clients/bench/ephemeris_family.h"
 #include "clients/bench/eye_family.h"
 #include "clients/bench/night_family.h"
@@ -20,7 +21,8 @@ namespace skyig::clients::bench {
 
 namespace {
 
-constexpr std::array<Family, 5> kFamilies{{
+constexpr std::array<Family, 6> kFamilies{{
+    {"cloud", "light in and from cloud", measure_cloud_errors, cloud_contenders, cloud_floor},
     {"ephemeris", "places of Sun, Moon and planets", measure_ephemeris_errors, ephemeris_contenders,
      ephemeris_floor},
     {"eye", "from luminance to display codes", measure_eye_errors, eye_contenders, eye_floor},

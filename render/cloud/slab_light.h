@@ -1,6 +1,6 @@
 // Light in a cloud: what a plane, homogeneous slab sends up and down, by every model we have, and the same
 // light at a point inside, for who marches through cloud of any shape. Facts and errors:
-// docs/accuracy/clouds.md.
+// docs/accuracy/cloud.md.
 //
 // mu is the cosine of a direction's angle with the vertical, cos_scatter that of the scattering angle: 1
 // where light goes straight on; towards the Sun it is dot(view ray, direction to the Sun). Optical depths are
