@@ -89,6 +89,7 @@ bool still_fits(const DomeLayout& held, const DomeLayout& wanted) noexcept {
 
 Dome::Dome(std::size_t screens)
     : vertices_(screens),
+      from_codes_(screens),
       patches_(static_cast<std::uint32_t>(DomeBend::kMost.rows()),
                static_cast<std::uint32_t>(DomeBend::kMost.columns)) {
     for (auto* rows : {&rows_, &old_rows_})
@@ -97,6 +98,8 @@ Dome::Dome(std::size_t screens)
         columns->reserve(static_cast<std::size_t>(DomeBend::kMost.columns + 1));
     for (auto& vertices : vertices_)
         vertices.reserve(kMaxVertices);
+    for (auto& codes : from_codes_)
+        codes.reserve(kMaxVertices);
     for (auto* each : {&directions_, &from_, &to_, &codes_})
         each->reserve(kMaxVertices);
 }
@@ -131,7 +134,7 @@ void Dome::lay_out(const DomeLayout& layout, const DomeBend& bend, const DomeSiz
     place_rows(bend);
     const std::size_t count = rows_.size() * stride();
     for (auto& vertices : vertices_)
-        vertices.resize(count);
+        carry_codes(vertices, count, turn_rad);
     directions_.resize(count);
     from_.resize(count);
     const double horizon = layout_.horizon_elevation_rad;
@@ -147,11 +150,21 @@ void Dome::lay_out(const DomeLayout& layout, const DomeBend& bend, const DomeSiz
     if (!same_size)
         patches_.resize(static_cast<std::uint32_t>(size.rows()), static_cast<std::uint32_t>(size.columns));
     patches_.bound(directions_);
-    if (!old_rows_.empty()) carry_over(old_rows_, old_azimuths_rad_, turn_rad);
+    if (!old_rows_.empty())
+        carry_over(to_, turn_rad, [&](std::size_t i, const glm::vec3& light) { from_[i] = light; });
     std::swap(from_, to_);
     from_.resize(count);
     to_.resize(count);
     codes_.resize(count);
+}
+
+void Dome::carry_codes(std::vector<DomeVertex>& vertices, std::size_t count, double turn_rad) {
+    codes_.resize(vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        codes_[i] = vertices[i].to;
+    vertices.resize(count);
+    if (old_rows_.empty()) return;
+    carry_over(codes_, turn_rad, [&](std::size_t i, const glm::vec3& code) { vertices[i].from = code; });
 }
 
 void Dome::settle_mix() noexcept {
@@ -166,28 +179,29 @@ void Dome::settle_mix() noexcept {
     share_ = 1.0;
 }
 
-// Light of old vertices, at `to_`, to new ones, at `from_`.
-void Dome::carry_over(const std::vector<Row>& rows, const std::vector<double>& azimuths_rad,
-                      double turn_rad) {
-    const std::size_t old_stride = azimuths_rad.size();
-    const auto first_sky =
-        std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.side == Side::kSky; });
+// From old vertices to new ones, so that they show what was shown there.
+template <class Keep>
+void Dome::carry_over(std::span<const glm::vec3> values, double turn_rad, const Keep& keep) const {
+    const std::size_t old_stride = old_azimuths_rad_.size();
+    const auto first_sky = std::find_if(old_rows_.begin(), old_rows_.end(),
+                                        [](const Row& row) { return row.side == Side::kSky; });
     std::size_t out = 0;
     for (const Row& row : rows_) {
-        const auto begin = row.side == Side::kSky ? first_sky : rows.begin();
-        const auto end = row.side == Side::kSky ? rows.end() : first_sky;
+        const auto begin = row.side == Side::kSky ? first_sky : old_rows_.begin();
+        const auto end = row.side == Side::kSky ? old_rows_.end() : first_sky;
         const auto above = std::upper_bound(begin + 1, end - 1, row.above_horizon_rad,
                                             [](double a, const Row& r) { return a < r.above_horizon_rad; });
         const Row& low = *(above - 1);
         const double gap = above->above_horizon_rad - low.above_horizon_rad;
         const auto up = static_cast<float>(
             std::clamp((row.above_horizon_rad - low.above_horizon_rad) / std::max(gap, 1e-12), 0.0, 1.0));
-        const glm::vec3* lower = &to_[static_cast<std::size_t>(above - 1 - rows.begin()) * old_stride];
+        const glm::vec3* lower =
+            &values[static_cast<std::size_t>(above - 1 - old_rows_.begin()) * old_stride];
         const glm::vec3* upper = lower + old_stride;
         for (const double azimuth : azimuths_rad_) {
-            const Place at = place_in(azimuths_rad, std::remainder(azimuth + turn_rad, 2.0 * kPi));
-            from_[out++] = glm::mix(glm::mix(lower[at.low], lower[at.low + 1], at.share),
-                                    glm::mix(upper[at.low], upper[at.low + 1], at.share), up);
+            const Place at = place_in(old_azimuths_rad_, std::remainder(azimuth + turn_rad, 2.0 * kPi));
+            keep(out++, glm::mix(glm::mix(lower[at.low], lower[at.low + 1], at.share),
+                                 glm::mix(upper[at.low], upper[at.low + 1], at.share), up));
         }
     }
 }
@@ -236,20 +250,40 @@ glm::vec3 Dome::bend_at(std::size_t row, std::size_t column) const noexcept {
 
 // Between vertices of a curved colour interpolation errs to one side; vertices moved half of that to the
 // other halve the largest error.
+template <class Keep>
 void Dome::encode_one(const std::vector<glm::vec3>& light, const shaders32::ToneParameters& tone,
-                      std::vector<DomeVertex>& vertices, glm::vec3 DomeVertex::*out) {
+                      const Keep& keep) {
     for (std::size_t i = 0; i < light.size(); ++i)
         codes_[i] = shaders32::shown(light[i], tone);
     if (shaders32::stores_luminance(tone)) {
         for (std::size_t i = 0; i < light.size(); ++i)
-            vertices[i].*out = codes_[i];
+            keep(i, codes_[i]);
         return;
     }
     std::size_t i = 0;
     for (std::size_t row = 0; row < rows_.size(); ++row) {
         for (std::size_t column = 0; column < stride(); ++column, ++i)
-            vertices[i].*out = glm::clamp(codes_[i] - 0.5F * bend_at(row, column), 0.0F, 1.0F);
+            keep(i, glm::clamp(codes_[i] - 0.5F * bend_at(row, column), 0.0F, 1.0F));
     }
+}
+
+// A fade begins with what is on the screen, which is not quite what `from_` shows: mixed light is not mixed
+// codes. Later tones change it by as much as they change that.
+void Dome::encode_before(const shaders32::ToneParameters& tone, std::size_t screen) {
+    std::vector<DomeVertex>& vertices = vertices_[screen];
+    std::vector<glm::vec3>& shown = from_codes_[screen];
+    if (!replaced_) {
+        encode_one(from_, tone, [&](std::size_t i, const glm::vec3& code) {
+            vertices[i].from = glm::clamp(vertices[i].from + code - shown[i], 0.0F, 1.0F);
+            shown[i] = code;
+        });
+        return;
+    }
+    shown.resize(from_.size());
+    encode_one(from_, tone, [&](std::size_t i, const glm::vec3& code) { shown[i] = code; });
+    if (laid_) return;
+    for (DomeVertex& vertex : vertices)
+        vertex.from = vertex.to;
 }
 
 void Dome::encode(std::span<const shaders64::ToneParameters> tones) {
@@ -257,14 +291,8 @@ void Dome::encode(std::span<const shaders64::ToneParameters> tones) {
     for (std::size_t screen = vertices_.size(); screen-- > 0;) {
         const auto tone32 = eye::single_precision(tones[screen]);
         std::vector<DomeVertex>& vertices = vertices_[screen];
-        if (replaced_ && !laid_) {
-            // What is on the screen now.
-            for (DomeVertex& vertex : vertices)
-                vertex.from = vertex.to;
-        } else if (share_ < 1.0) {
-            encode_one(from_, tone32, vertices, &DomeVertex::from);
-        }
-        encode_one(to_, tone32, vertices, &DomeVertex::to);
+        if (share_ < 1.0) encode_before(tone32, screen);
+        encode_one(to_, tone32, [&](std::size_t i, const glm::vec3& code) { vertices[i].to = code; });
     }
     if (replaced_) begin_fade();
     replaced_ = laid_ = false;

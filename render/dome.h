@@ -131,9 +131,13 @@ class Dome {
     [[nodiscard]] std::size_t stride() const noexcept { return azimuths_rad_.size(); }
     void place_rows(const DomeBend& bend);
     void settle_mix() noexcept;
-    void carry_over(const std::vector<Row>& rows, const std::vector<double>& azimuths_rad, double turn_rad);
+    template <class Keep>
+    void carry_over(std::span<const glm::vec3> values, double turn_rad, const Keep& keep) const;
+    void carry_codes(std::vector<DomeVertex>& vertices, std::size_t count, double turn_rad);
+    template <class Keep>
     void encode_one(const std::vector<glm::vec3>& light, const shaders32::ToneParameters& tone,
-                    std::vector<DomeVertex>& vertices, glm::vec3 DomeVertex::*out);
+                    const Keep& keep);
+    void encode_before(const shaders32::ToneParameters& tone, std::size_t screen);
     [[nodiscard]] glm::vec3 bend_at(std::size_t row, std::size_t column) const noexcept;
     [[nodiscard]] float thinning_error(std::size_t row, std::size_t column, std::size_t columns,
                                        std::size_t step) const noexcept;
@@ -155,6 +159,8 @@ class Dome {
     std::vector<double> azimuths_rad_;
     std::vector<double> old_azimuths_rad_;
     std::vector<std::vector<DomeVertex>> vertices_;  // of each screen
+    /// What `from_` shows, of each screen, while a fade lasts.
+    std::vector<std::vector<glm::vec3>> from_codes_;
     std::vector<glm::vec3> directions_;
     std::vector<glm::vec3> from_;  // linear Rec.709, cd/m2
     std::vector<glm::vec3> to_;

@@ -57,10 +57,10 @@ struct TableSize {
     double error_codes;
 };
 constexpr std::array<TableSize, 3> kTables{
-    {{{24, 12, 21, 32}, 12.0}, {{40, 20, 33, 48}, 4.9}, {{56, 28, 49, 64}, 2.8}}};
+    {{{24, 12, 21, 32}, 8.8}, {{40, 20, 33, 48}, 3.1}, {{56, 28, 49, 64}, 1.3}}};
 
 // The table errs smoothly over degrees, where no eye finds an edge: it may err by this many budgets.
-constexpr double kTableShare = 10.0;
+constexpr double kTableShare = 8.0;
 
 struct Verdict {
     bool needed;
