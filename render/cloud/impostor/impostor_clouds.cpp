@@ -22,6 +22,8 @@ constexpr float kFiner = 2.0F;
 // Texels to the smallest particle's radius: finer ones show nothing more.
 constexpr float kTexelsARadius = 5.0F;
 constexpr float kAtOnce = 1e6F;
+constexpr float kShrunk = 1.6F;
+constexpr double kRetry_s = 0.5;
 constexpr double kLongestStep_s = 5.0;
 
 float angle_between(const glm::vec3& a, const glm::vec3& b) {
@@ -71,7 +73,7 @@ glm::dvec3 ImpostorClouds::middle_m(const Cloud& cloud, const Eye& eye) const no
 }
 
 float ImpostorClouds::newest_part(const Cloud& cloud) const noexcept {
-    const double part = (moment_.time_s - cloud.fade_from_s) / settings_.fade_s;
+    const double part = (moment_.time_s - cloud.fade_from_s) / cloud.fade_s;
     return static_cast<float>(std::clamp(part, 0.0, 1.0));
 }
 
@@ -159,7 +161,7 @@ float ImpostorClouds::light_urgency(const Cloud& cloud) const noexcept {
 float ImpostorClouds::picture_urgency(const Cloud& cloud) const noexcept {
     const Picture& newest = cloud.pictures[0];
     if (!cloud.made || (cloud.particles == 0 && newest.id == Atlas::kNone)) return 0.0F;
-    if (!moment_.jumped && newest_part(cloud) < 1.0F) return 0.0F;
+    if (!moment_.jumped && (newest_part(cloud) < 1.0F || moment_.time_s < cloud.wait_s)) return 0.0F;
     const glm::vec3 middle{middle_m(cloud, moment_.eye)};
     const float distance = glm::length(middle);
     if (cloud.particles > 0) {
@@ -245,16 +247,27 @@ void ImpostorClouds::take_picture(Cloud& cloud) noexcept {
     if (picture.capture.size.x > 0) {
         picture.wanted_texel_m = std::max(moment_.texel_rad, finest) * glm::length(middle);
         picture.id = atlas_->allocate(picture.capture.size);
-        // Without room the old picture is better than none.
-        if (picture.id == Atlas::kNone) return;
+        if (picture.id == Atlas::kNone) {
+            cloud.wait_s = moment_.time_s + kRetry_s;
+            return;
+        }
+        const float best_m = picture.capture.texel_m;
         picture.capture = resized(picture.capture, atlas_->size(picture.id));
+        // An old picture is better than one that is much coarser than it should be.
+        if (cloud.pictures[0].id != Atlas::kNone && picture.capture.texel_m > kShrunk * best_m) {
+            atlas_->release(picture.id);
+            cloud.wait_s = moment_.time_s + kRetry_s;
+            return;
+        }
         draw(shaded, picture.capture, canvas_);
         atlas_->write(picture.id, canvas_.data());
     }
     atlas_->release(cloud.pictures[1].id);
     cloud.pictures[1] = cloud.pictures[0];
     cloud.pictures[0] = picture;
-    cloud.fade_from_s = moment_.jumped ? moment_.time_s - settings_.fade_s : moment_.time_s;
+    const bool first = cloud.pictures[1].id == Atlas::kNone;
+    cloud.fade_s = first ? settings_.first_fade_s : settings_.fade_s;
+    cloud.fade_from_s = moment_.jumped ? moment_.time_s - cloud.fade_s : moment_.time_s;
     cloud.stale = false;
     end_fade(cloud);
 }

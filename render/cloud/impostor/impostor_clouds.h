@@ -27,9 +27,11 @@ struct ImpostorSettings {
     /// A frame, at most: clouds made or lit anew, pictures drawn anew.
     int lights_per_update = 4;
     int pictures_per_update = 6;
-    /// Of scene time, from one picture of a cloud to the next.
-    double fade_s = 0.3;
-    /// How far what stands before or behind a picture's plane may seem displaced, texels.
+    /// Of scene time, from one picture of a cloud to the next; and from none to its first.
+    double fade_s = 1.0;
+    double first_fade_s = 3.0;
+    /// How far what stands before or behind a picture's plane may be displaced, texels. Rays see some of it
+    /// in relief: what is left over is less.
     float most_shift = 1.0F;
 };
 
@@ -72,12 +74,15 @@ struct Cloud {
     /// The newest, and the one that it takes over from.
     std::array<Picture, 2> pictures{};
     double fade_from_s = 0.0;
+    double fade_s = 1.0;
+    /// No picture is tried before: the atlas had no room.
+    double wait_s = -1e300;
 };
 
 /// From `kDirect` bounds on a cloud is shown by pictures alone, below `kPictures` by its particles alone, and
 /// by both in between.
-inline constexpr float kDirect = 1.7F;
-inline constexpr float kPictures = 1.35F;
+inline constexpr float kDirect = 2.0F;
+inline constexpr float kPictures = 1.5F;
 
 /// Allocates at construction alone. A CloudSource that was frozen from it reads it in place:
 /// update() only when no march is under way.
