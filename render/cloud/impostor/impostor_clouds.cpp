@@ -24,6 +24,7 @@ constexpr float kTexelsARadius = 5.0F;
 constexpr float kAtOnce = 1e6F;
 constexpr float kShrunk = 1.6F;
 constexpr double kRetry_s = 0.5;
+constexpr double kFastest_m_s = 1000.0;
 constexpr double kLongestStep_s = 5.0;
 
 float angle_between(const glm::vec3& a, const glm::vec3& b) {
@@ -96,6 +97,7 @@ void ImpostorClouds::update(const Moment& moment) noexcept {
         for (Cloud& cloud : clouds_)
             clear(cloud);
     }
+    find_velocity(jumped ? 0.0 : step_s);
     find_cells();
     work_.packed = atlas_->tidy(moment.time_s);
     for (Cloud& cloud : clouds_)
@@ -108,6 +110,15 @@ void ImpostorClouds::clear(Cloud& cloud) noexcept {
     for (const Picture& picture : cloud.pictures)
         atlas_->release(picture.id);
     cloud = {};
+}
+
+void ImpostorClouds::find_velocity(double step_s) noexcept {
+    const glm::dvec2 ground = sky::sea_anchor(moment_.eye).eye_m - moment_.layer.drift_m;
+    const glm::dvec3 place{ground, moment_.eye.height_m};
+    if (step_s > 0.0) velocity_m_s_ = (place - place_m_) / step_s;
+    // A new eye, not a flight.
+    if (step_s <= 0.0 || glm::length(velocity_m_s_) > kFastest_m_s) velocity_m_s_ = glm::dvec3{0.0};
+    place_m_ = place;
 }
 
 void ImpostorClouds::find_cells() noexcept {
@@ -237,7 +248,10 @@ void ImpostorClouds::renew_pictures() noexcept {
 }
 
 void ImpostorClouds::take_picture(Cloud& cloud) noexcept {
-    const glm::vec3 middle{middle_m(cloud, moment_.eye)};
+    glm::vec3 middle{middle_m(cloud, moment_.eye)};
+    // As it will be seen when this picture has taken over.
+    const glm::vec3 ahead = middle - glm::vec3{velocity_m_s_ * settings_.fade_s};
+    if (!moment_.jumped && glm::length(ahead) > kPictures * cloud.bound_m) middle = ahead;
     const std::span<Shaded> shaded{shaded_.data(), cloud.particles};
     shade(particles(cloud), lit(cloud), shading_, middle, shaded);
     const float finest = class_radius_m(cloud.shape, 0) / (kTexelsARadius * glm::length(middle));

@@ -45,8 +45,8 @@ TEST(Noise, IsSmoothWithMeanNothingAndTiles) {
 /// Part of the ground that sees less than half of the light straight above through.
 double measured_coverage(const CloudLayer& layer, double coverage) {
     const CloudShape shape = shape_of(layer);
-    constexpr int kCells = 18;
-    constexpr int kNodes = 20;
+    constexpr int kCells = 14;
+    constexpr int kNodes = 16;
     constexpr int kSide = kCells * kNodes;
     const double node_m = shape.cell_m / kNodes;
     std::vector<float> depth(static_cast<std::size_t>(kSide) * kSide);
@@ -85,7 +85,7 @@ TEST(Particles, CoverThePartOfTheGroundThatIsAsked) {
     double worst = 0.0;
     for (const CloudLayer& layer : layers) {
         std::printf("coverage, genus %d, %4.0f m:", static_cast<int>(layer.genus), layer.thickness_m);
-        for (const double asked : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+        for (const double asked : {0.1, 0.5, 0.9}) {
             const double measured = measured_coverage(layer, asked);
             std::printf("  %.0f -> %.1f %%", 100.0 * asked, 100.0 * measured);
             worst = std::max(worst, std::abs(measured - asked));
