@@ -65,7 +65,8 @@ std::string weather_text(const Weather& weather) {
     std::string text;
     if (!weather.preset.empty()) text = fmt::format(", weather {}", weather.preset);
     if (!weather.metar.empty()) text = fmt::format(", weather of {}", weather.metar);
-    if (weather.driver == WeatherDriver::kKeyframes) text += text.empty() ? ", weather by keyframes" : " by keyframes";
+    if (weather.driver == WeatherDriver::kKeyframes)
+        text += text.empty() ? ", weather by keyframes" : " by keyframes";
     const std::size_t count = weather.layers.size();
     if (count == 0) return text;
     return fmt::format("{} of {} layer{}", text.empty() ? ", weather" : text, count, count == 1 ? "" : "s");

@@ -154,6 +154,17 @@ struct Status {
     bool listen_given = false;
 };
 
+/// Small pictures of the channels on the status port, made while somebody asks.
+struct Preview {
+    bool enabled = true;
+    /// A second and channel, 0.1..30.
+    double rate_hz = 5.0;
+    /// 16..4096; wider channels are made smaller by a whole factor.
+    int width_px = 640;
+    /// 1..100
+    int quality = 80;
+};
+
 struct Config {
     Daemon daemon;
     Host host;
@@ -174,6 +185,7 @@ struct Config {
     std::vector<Window> windows;
     Record record;
     Status status;
+    Preview preview;
     /// 1..kMaxChannels
     std::vector<Channel> channels;
 };

@@ -38,7 +38,8 @@ void read_set(TableReader table, Keyframe& set) {
     table.number("star_opacity", set.star_opacity, {0.0, 1.0, {}});
     table.number("cloud_cover", set.cloud_cover, {0.0, 2.0, {}});
     for (const Refused& refused : kRefused)
-        if (table.has(refused.key)) table.error(*table.any(refused.key), refused.key, std::string(refused.why));
+        if (table.has(refused.key))
+            table.error(*table.any(refused.key), refused.key, std::string(refused.why));
     table.finish();
 }
 

@@ -20,8 +20,8 @@ std::string unknown_preset(std::string_view preset) {
         names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
     const std::string_view near = nearest(preset, kPresetNames);
     const std::string hint = near.empty() ? std::string() : fmt::format("; did you mean \"{}\"?", near);
-    return fmt::format("is \"{}\"; it must be one of {}, or the path of a file such as \"./my.toml\"{}", preset,
-                       names, hint);
+    return fmt::format("is \"{}\"; it must be one of {}, or the path of a file such as \"./my.toml\"{}",
+                       preset, names, hint);
 }
 
 }  // namespace

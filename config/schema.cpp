@@ -100,6 +100,14 @@ void read_record(TableReader table, Record& record) {
     table.finish();
 }
 
+void read_preview(TableReader table, Preview& preview) {
+    table.boolean("enabled", preview.enabled);
+    table.number("rate_hz", preview.rate_hz, {0.1, 30.0, "Hz"});
+    table.integer("width_px", preview.width_px, 16, 4096, "pixels");
+    table.integer("quality", preview.quality, 1, 100);
+    table.finish();
+}
+
 }  // namespace
 
 void read_version(TableReader& root) {
@@ -155,6 +163,7 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_record(root.table("record"), config.record);
     TableReader status = root.table("status");
     read_status(status, config.status);
+    read_preview(root.table("preview"), config.preview);
     read_windows(root, errors, config.windows);
     read_channels(root, errors, config.display, config.windows, config.channels);
     place_channels(errors, config);

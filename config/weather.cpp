@@ -33,7 +33,8 @@ void read_extent(TableReader& table, WeatherLayer& layer) {
         table.require("base_m", "its height above weather.elevation_m, or base_ft in its place");
     double top_m = 0.0;
     const bool has_top = read_length(table, "top_m", "top_ft", -1000.0, top_m);
-    const bool has_thickness = read_length(table, "thickness_m", "thickness_ft", 0.0, layer.thickness_m, true);
+    const bool has_thickness =
+        read_length(table, "thickness_m", "thickness_ft", 0.0, layer.thickness_m, true);
     const std::string_view top_key = table.has("top_ft") ? "top_ft" : "top_m";
     if (has_top && has_thickness) {
         table.error(*table.any(top_key), top_key, "stands beside its thickness; only one may be given");
@@ -87,7 +88,8 @@ void read_layer(TableReader& table, WeatherLayer& layer) {
         layer.id = id;
         if (!is_cloud(layer.type)) table.error(*value, "id", "is of clouds alone");
         if (id > 3 && id < 14)
-            table.error(*value, "id", fmt::format("is {}, that of another type; it must be 1..3 or 14..255", id));
+            table.error(*value, "id",
+                        fmt::format("is {}, that of another type; it must be 1..3 or 14..255", id));
     }
     read_extent(table, layer);
     read_amount(table, layer);
@@ -118,7 +120,8 @@ void read_layers(TableReader& weather, ErrorList& errors, std::vector<WeatherLay
     for (const Value& item : list->items) {
         const auto* table = std::get_if<Table>(&item.data);
         if (table == nullptr) {
-            weather.error(item, "layer", fmt::format("holds {}; write [[weather.layer]] tables", type_name(item)));
+            weather.error(item, "layer",
+                          fmt::format("holds {}; write [[weather.layer]] tables", type_name(item)));
             continue;
         }
         TableReader reader(errors, table, item.place, fmt::format("weather.layer[{}]", ++number));

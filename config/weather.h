@@ -37,9 +37,9 @@ enum class LayerType : std::uint8_t {
     kStratus,
 };
 inline constexpr std::array<std::string_view, 20> kLayerTypeNames{
-    "fog",          "haze",         "smoke",  "sand",         "dust",    "drizzle",      "rain",
-    "snow",         "sleet",        "hail",   "altocumulus",  "altostratus", "cirrocumulus", "cirrostratus",
-    "cirrus",       "cumulonimbus", "cumulus", "nimbostratus", "stratocumulus", "stratus"};
+    "fog",    "haze",         "smoke",   "sand",         "dust",          "drizzle",      "rain",
+    "snow",   "sleet",        "hail",    "altocumulus",  "altostratus",   "cirrocumulus", "cirrostratus",
+    "cirrus", "cumulonimbus", "cumulus", "nimbostratus", "stratocumulus", "stratus"};
 
 [[nodiscard]] constexpr bool is_cloud(LayerType type) noexcept {
     return type >= LayerType::kAltocumulus;

@@ -99,18 +99,24 @@ void DeferredAir::tell_sources(const Scene& scene, const Plan& plan, const SkyLi
     }
 }
 
-glm::dvec3 DeferredAir::under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3& direction_enu,
-                                  double distance_m) const noexcept {
+sky::models::AirBetween DeferredAir::between(const glm::dvec3& direction_enu,
+                                             double distance_m) const noexcept {
     const Horizontal view = horizontal_of(direction_enu);
-    glm::dvec3 passed{1.0};
-    glm::dvec3 added{0.0};
+    sky::models::AirBetween all;
     for (std::size_t i = 0; i < std::max<std::size_t>(source_count_, 1); ++i) {
         const double azimuth_rad = view.azimuth_rad - horizontal_of(sources_[i].direction_enu).azimuth_rad;
         const auto seen = front_.between(view.elevation_rad, azimuth_rad, distance_m, i);
-        passed = seen.passed_rgb;
-        if (i < source_count_) added += sources_[i].rgb * seen.added_rgb;
+        all.passed_rgb = seen.passed_rgb;
+        if (i < source_count_) all.added_rgb += sources_[i].rgb * seen.added_rgb;
     }
-    return rgb_cd_m2 * passed + added + night_cd_m2_ * (1.0 - passed);
+    all.added_rgb += night_cd_m2_ * (1.0 - all.passed_rgb);
+    return all;
+}
+
+glm::dvec3 DeferredAir::under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3& direction_enu,
+                                  double distance_m) const noexcept {
+    const sky::models::AirBetween air = between(direction_enu, distance_m);
+    return rgb_cd_m2 * air.passed_rgb + air.added_rgb;
 }
 
 }  // namespace skyig::render

@@ -52,6 +52,10 @@ class DeferredAir {
     /// Rises whenever the table in use is replaced.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
+    /// What the air does to light on its way from a thing, to the sum of all lights. \param direction_enu
+    /// unit vector
+    [[nodiscard]] sky::models::AirBetween between(const glm::dvec3& direction_enu,
+                                                  double distance_m) const noexcept;
     /// What the shader makes of a thing, in double. \param direction_enu  unit vector
     [[nodiscard]] glm::dvec3 under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3& direction_enu,
                                        double distance_m) const noexcept;

@@ -44,8 +44,8 @@ DeferredPass::DeferredPass()
     program_.set(program_.uniform("u_depths"), static_cast<float>(Table::kDepths));
 }
 
-void DeferredPass::upload() {
-    const Table& table = air_.table();
+void DeferredPass::upload(const DeferredAir& air) {
+    const Table& table = air.table();
     extinction_.update(floats(table.extinction()));
     for (std::size_t i = 0; i < table.light_count(); ++i) {
         rest_[i].update(floats(table.colours(i).rest));
@@ -57,19 +57,17 @@ void DeferredPass::upload() {
     for (std::size_t i = 0; i < values.size(); ++i)
         program_.set(map_[i], static_cast<float>(values[i]));
     program_.set(haze_g_, static_cast<float>(table.haze_g()));
-    uploaded_ = air_.revision();
+    uploaded_ = air.revision();
 }
 
-void DeferredPass::prepare(const Scene& scene, const Plan& plan, const LightTables& tables,
-                           const SkyLight& light, bool dither) {
-    air_.update(scene, plan, tables, light);
-    if (uploaded_ != air_.revision()) upload();
-    for (std::size_t i = 0; i < air_.source_count(); ++i) {
-        program_.set(sources_[i].direction, glm::vec3{air_.source(i).direction_enu});
-        program_.set(sources_[i].rgb, glm::mat4{glm::dmat4{air_.source(i).rgb}});
+void DeferredPass::prepare(const DeferredAir& air, bool dither) {
+    if (uploaded_ != air.revision()) upload(air);
+    for (std::size_t i = 0; i < air.source_count(); ++i) {
+        program_.set(sources_[i].direction, glm::vec3{air.source(i).direction_enu});
+        program_.set(sources_[i].rgb, glm::mat4{glm::dmat4{air.source(i).rgb}});
     }
-    program_.set(source_count_, static_cast<float>(air_.source_count()));
-    program_.set(night_, glm::vec3{air_.night_cd_m2()});
+    program_.set(source_count_, static_cast<float>(air.source_count()));
+    program_.set(night_, glm::vec3{air.night_cd_m2()});
     program_.set(dither_, dither ? 1.0F : 0.0F);
 }
 

@@ -104,6 +104,9 @@ Cost cost_of(Pass pass) {
         case Pass::kMoonSky:
         case Pass::kNightSky:
             return Cost::kNewTable;
+        case Pass::kClouds:
+        case Pass::kNearClouds:
+            return Cost::kFrame;
         case Pass::kDome:
         case Pass::kWaves:
         case Pass::kMilkyWay:
@@ -174,13 +177,13 @@ void plan_night(Plan& plan, double sun_rad) {
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables", "sun sky", "moon sky", "night sky", "dome",          "waves",     "milky way",
-        "stars",      "corona",  "sun disc", "moon disc", "precipitation", "sun glare", "moon glare"};
+        "air tables", "sun sky",   "moon sky", "night sky", "clouds",   "near clouds",   "dome",      "waves",
+        "milky way",  "stars",     "corona",   "sun disc",  "moon disc", "precipitation", "sun glare", "moon glare"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
 std::string_view cost_name(Cost cost) noexcept {
-    constexpr std::array<std::string_view, 3> kNames{"per air", "per table", "per channel"};
+    constexpr std::array<std::string_view, 4> kNames{"per air", "per table", "per frame", "per channel"};
     return kNames[static_cast<std::size_t>(cost)];
 }
 
@@ -215,6 +218,8 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kAirTables, {air_stale, air_stale ? "the air is new" : "the air has not changed"});
     plan_skies(plan, scene, held, sun_rad, moon_rad);
     plan_night(plan, sun_rad);
+    put(plan, Pass::kClouds, {false, "not decided yet"});
+    put(plan, Pass::kNearClouds, {false, "not decided yet"});
     put(plan, Pass::kDome, {true, "smooth light of all directions"});
     put(plan, Pass::kWaves, {false, "not decided yet"});
     put(plan, Pass::kStars, {false, "not decided yet"});
@@ -239,6 +244,19 @@ DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& qu
     return {std::clamp(held.columns, least.columns, ample.columns),
             std::clamp(held.sky_rows, least.sky_rows, ample.sky_rows),
             std::clamp(held.ground_rows, least.ground_rows, ample.ground_rows)};
+}
+
+void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bool near_shown) noexcept {
+    const auto layers = scene.weather.all_clouds();
+    const bool any = std::any_of(layers.begin(), layers.end(),
+                                 [](const CloudLayer& layer) { return layer.coverage > 0.0; });
+    put(plan, Pass::kClouds, any ? Verdict{true, "clouds stand in the sky"} : Verdict{false, "no layer has any"});
+    put(plan, Pass::kNearClouds,
+        !any          ? Verdict{false, "no layer has any"}
+        : near_shown ? Verdict{true, "the eye is in a layer or soon may be"}
+                     : Verdict{false, "no layer is near the eye's height"});
+    plan.passes[static_cast<std::size_t>(Pass::kClouds)].resolution = {2 * map_size, map_size};
+    plan.passes[static_cast<std::size_t>(Pass::kNearClouds)].resolution = {2 * near_size, near_size};
 }
 
 void plan_waves(Plan& plan, const Scene& scene, const sky::SeaWaves& waves, bool lit) noexcept {

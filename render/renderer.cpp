@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "render/cloud_pass.h"
 #include "render/deferred_pass.h"
 #include "render/discs.h"
 #include "render/eye/tone_curve.h"
@@ -67,6 +68,11 @@ struct Renderer::Impl {
     void prepare_discs(std::size_t screen);
     void prepare_moon(std::size_t screen);
     void draw_dome(std::size_t channel, const glm::dmat4& clip_from_enu);
+    void draw_clouded_dome(std::size_t channel, const glm::dmat4& clip_from_mesh, std::uint32_t sea_rows);
+    void prepare_clouds();
+    [[nodiscard]] const CloudPass* shown_clouds() const noexcept {
+        return frame.clouds().shown() ? clouds.get() : nullptr;
+    }
     void refresh_deferred();
     [[nodiscard]] bool shows(std::size_t channel) const noexcept;
     [[nodiscard]] glm::dmat4 clip_from_enu(std::size_t channel) const noexcept;
@@ -88,6 +94,7 @@ struct Renderer::Impl {
     std::vector<gl::Mesh> dome_meshes;  // one a screen
     std::uint64_t triangles_revision = 0;
     std::uint64_t vertices_revision = 0;
+    std::unique_ptr<CloudPass> clouds;  // once there are any
     SeaPass sea{screens.distinct.size()};
     MilkyWayPass milky_way{screens.distinct.size()};
     StarPass stars;
@@ -125,9 +132,9 @@ void Renderer::Impl::prepare_discs(std::size_t screen) {
     const auto tone32 = eye::single_precision(tone);
     discs_screen = screen;
     if (plan.needs(Pass::kCorona))
-        corona.prepare(scene, frame.air(), frame.light(), pixel_rad, tone32, plan.corona_share);
+        corona.prepare(scene, frame, pixel_rad, tone32, plan.corona_share);
     if (plan.needs(Pass::kSunDisc))
-        sun_disc.prepare(scene, frame.air(), frame.light(), pixel_rad, tone32, display.dither);
+        sun_disc.prepare(scene, frame, pixel_rad, tone32, display.dither);
     if (plan.needs(Pass::kMoonDisc)) prepare_moon(screen);
     if (plan.needs(Pass::kSunGlare)) sun_glare.prepare(frame.sun_glare(screen), pixel_rad, display.dither);
     if (plan.needs(Pass::kMoonGlare)) moon_glare.prepare(frame.moon_glare(screen), pixel_rad, display.dither);
@@ -135,7 +142,7 @@ void Renderer::Impl::prepare_discs(std::size_t screen) {
 
 void Renderer::Impl::prepare_moon(std::size_t screen) {
     moon_disc.prepare(
-        scene, frame.air(), frame.light(), pixel_rad, eye::single_precision(frame.tone(screen)),
+        scene, frame, pixel_rad, eye::single_precision(frame.tone(screen)),
         display.dither,
         moon_fovea(scene, frame.air(), frame.light(), frame.display(screen), frame.tone(screen)),
         frame.moon_glare(screen).limb());
@@ -150,15 +157,47 @@ void Renderer::Impl::draw_dome(std::size_t index, const glm::dmat4& clip_from_en
     dome_program.set(dome_share, static_cast<float>(frame.dome().share()));
     const std::size_t screen = screens.of_channel[index];
     const auto sea_rows = static_cast<std::uint32_t>(frame.sea_rows());
-    for (const IndexRange& range : frame.dome().visible(clip_from_mesh, {.first = sea_rows}))
+    const bool clouded = frame.clouds().shown();
+    const Marked plain = clouded ? Marked::kNo : Marked::kAll;
+    for (const IndexRange& range : frame.dome().visible(clip_from_mesh, {.first = sea_rows}, plain))
         dome_meshes[screen].draw_triangles(range.first, range.count);
+    if (sea_rows > 0) {
+        sea.draw(channel, screen, eye::single_precision(frame.tone(screen)), clip_from_mesh,
+                 frame.dome().visible(clip_from_mesh, {.end = sea_rows}));
+    }
+    if (clouded) draw_clouded_dome(index, clip_from_mesh, sea_rows);
+}
+
+void Renderer::Impl::draw_clouded_dome(std::size_t index, const glm::dmat4& clip_from_mesh,
+                                       std::uint32_t sea_rows) {
+    const std::size_t screen = screens.of_channel[index];
+    const auto draw_ranges = [&](std::span<const IndexRange> ranges) {
+        for (const IndexRange& range : ranges)
+            dome_meshes[screen].draw_triangles(range.first, range.count);
+    };
+    clouds->bind(screen);
+    clouds->use_dome(channels[index], clip_from_mesh, frame.enu_from_mesh(), frame.dome().share());
+    draw_ranges(frame.dome().visible(clip_from_mesh, {.first = sea_rows}, Marked::kYes));
     if (sea_rows == 0) return;
-    sea.draw(channel, screen, eye::single_precision(frame.tone(screen)), clip_from_mesh,
-             frame.dome().visible(clip_from_mesh, {.end = sea_rows}));
+    // Waves are drawn already.
+    clouds->use_over(clip_from_mesh, frame.enu_from_mesh());
+    gl::set_blend(gl::Blend::kOver);
+    draw_ranges(frame.dome().visible(clip_from_mesh, {.end = sea_rows}, Marked::kYes));
+    gl::set_blend(gl::Blend::kReplace);
+}
+
+void Renderer::Impl::prepare_clouds() {
+    report.cloud_rays = 0;
+    report.cloud_tiles = 0;
+    if (!frame.clouds().shown()) return;
+    if (!clouds) clouds = std::make_unique<CloudPass>(screens.distinct.size());
+    clouds->prepare(frame.clouds(), display.dither);
+    report.cloud_rays = frame.clouds().map().rays_marched() + frame.clouds().map().near_rays();
+    report.cloud_tiles = frame.clouds().toned().size();
 }
 
 void Renderer::Impl::refresh_deferred() {
-    deferred->prepare(scene, frame.plan(), frame.tables(), frame.light(), display.dither);
+    deferred->prepare(frame.air_between(scene), display.dither);
 }
 
 Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality,
@@ -172,12 +211,17 @@ Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display
 
 Renderer::~Renderer() = default;
 
+void Renderer::draw_clouds(Clouds clouds) {
+    impl_->frame.draw_clouds(std::move(clouds));
+}
+
 const FrameReport& Renderer::prepare(const Scene& scene) {
     Impl& m = *impl_;
     m.scene = scene;
     m.pixel_rad = finest_pixel_rad(m.channels, scene.channel_views());
     m.frame.prepare(scene, m.pixel_rad, smallest_pixel_sr(m.channels, scene.channel_views()));
     m.upload_dome();
+    m.prepare_clouds();
     if (m.frame.sea_rows() > 0) m.sea.prepare(m.frame, m.display.dither);
     if (m.frame.light().milky_way.map != nullptr)
         m.milky_way.prepare(m.frame.milky_way(), m.frame.light(), m.display.dither);
@@ -216,8 +260,9 @@ void Renderer::Impl::draw_sky(std::size_t channel) {
     draw_dome(channel, clip);
     gl::set_blend(gl::Blend::kAdd);
     if (frame.light().milky_way.map != nullptr)
-        milky_way.draw(frame.milky_way(), channels[channel], screen, clip);
-    if (plan.needs(Pass::kStars)) stars.draw(channels[channel], scene.views[channel], tone32(channel));
+        milky_way.draw(frame.milky_way(), channels[channel], screen, clip, shown_clouds());
+    if (plan.needs(Pass::kStars))
+        stars.draw(channels[channel], scene.views[channel], tone32(channel), shown_clouds());
     if (plan.needs(Pass::kCorona)) corona.draw(glm::mat4{clip});
 }
 
@@ -297,8 +342,9 @@ glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu, std::size
 glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu, double distance_m,
                                       const glm::dvec3& rgb_cd_m2) const {
     const shaders64::ToneParameters& tone = impl_->frame.tone();
-    if (!impl_->deferred) return shaders64::shown(rgb_cd_m2, tone);
-    return shaders64::shown(impl_->deferred->air().under_air(rgb_cd_m2, direction_enu, distance_m), tone);
+    const DeferredAir* air = impl_->frame.air_between();
+    if (air == nullptr) return shaders64::shown(rgb_cd_m2, tone);
+    return shaders64::shown(air->under_air(rgb_cd_m2, direction_enu, distance_m), tone);
 }
 
 }  // namespace skyig::render

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/channel.h"
+#include "render/clouds.h"
 #include "render/deferred.h"
 #include "render/display.h"
 #include "render/plan.h"
@@ -24,6 +25,9 @@ struct FrameReport {
     /// The one luminance that all channels of this frame are adapted to, cd/m2.
     double adaptation_cd_m2 = 0.0;
     std::size_t stars_drawn = 0;
+    /// Through clouds, for the cloud maps of this frame, and tiles that were toned.
+    int cloud_rays = 0;
+    std::size_t cloud_tiles = 0;
     /// GL errors since start-up (debug output of type error).
     std::uint64_t gl_errors = 0;
 };
@@ -40,6 +44,9 @@ class Renderer {
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
+
+    /// From the next frame on the scene's weather has clouds.
+    void draw_clouds(Clouds clouds);
 
     /// All work that the channels share. Channels beyond `scene.view_count` and those whose frustum has no
     /// area keep their last picture (black at first). Allocates nothing in steady state. The first call

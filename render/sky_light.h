@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 
+#include "render/cloud/lightning.h"
 #include "render/geometry.h"
 #include "render/night/milky_way_map.h"
 #include "render/night/night_sky.h"
@@ -72,6 +73,12 @@ struct SkyLight {
     const night::NightSky* night = nullptr;
     float night_share = 1.0F;
     LitBelt milky_way;
+    /// What lightning adds to everything.
+    cloud::FlashLight flash;
+    /// Part of the land under a film of water that mirrors the sky, 0..1.
+    double film = 0.0;
+    /// Of the air between the eye and what flashes and films do to the ground.
+    double near_extinction_per_m = 0.0;
 
     /// Elevation of the straight ray that stands in the tables for the curved one seen at `elevation_rad`: it
     /// comes as near to the ground. The same above the level; on the horizon the straight horizon (0.2 deg

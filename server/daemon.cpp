@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "render/output/jpeg.h"
 #include "render/output/png.h"
 #include "server/clock.h"
 #include "server/endpoint_format.h"
@@ -50,6 +51,14 @@ std::unique_ptr<ImageWriter> open_images(const DaemonOptions& options, const con
                                        std::span<const std::byte> rgba, std::string& why) {
             return render::output::write_png(path, channel.width_px, channel.height_px, rgba, why, gamma);
         });
+}
+
+std::unique_ptr<Preview> open_preview(const config::Config& config) {
+    if (!config.preview.enabled || !config.status.enabled) return nullptr;
+    return std::make_unique<Preview>(
+        render_channels(config),
+        Preview::Settings{config.preview.rate_hz, config.preview.width_px, config.preview.quality},
+        &render::output::encode_jpeg);
 }
 
 std::string_view bus_text(protocol::transport::CanState state) {
@@ -221,7 +230,7 @@ status::Facts status_facts(const FrameLoop& loop, const Outside& outside, const 
 /// Null where none is wanted, or none can be had that was only the default.
 std::unique_ptr<status::StatusPort> open_status(const config::Status& settings, status::Facts facts,
                                                 status::SnapshotExchange& exchange, const Outside& outside,
-                                                const Clock& clock, Log& log) {
+                                                const Clock& clock, Preview* preview, Log& log) {
     // A replay is one of many, and its log is compared.
     if (!settings.enabled || (outside.replay() != nullptr && !settings.listen_given)) return nullptr;
     const auto edges = [&outside] {
@@ -233,7 +242,7 @@ std::unique_ptr<status::StatusPort> open_status(const config::Status& settings, 
         }
         return told;
     };
-    auto port = status::StatusPort::open(settings, std::move(facts), exchange, clock, edges);
+    auto port = status::StatusPort::open(settings, std::move(facts), exchange, clock, edges, preview);
     if (!port) {
         if (settings.listen_given) throw std::runtime_error(fmt::format("status: {}", port.error()));
         log.warning("no status port: {}", port.error());
@@ -291,13 +300,14 @@ void run(const DaemonOptions& options, const config::Config& config,
     }
 
     const auto exchange = std::make_unique<status::SnapshotExchange>();
+    const std::unique_ptr<Preview> preview = open_preview(config);
     FrameLoop loop(config,
                    {clock, log, outside.pace(), outside.wire(), world, painter, images.get(), hashes.get(),
-                    table.get(), exchange.get()},
+                    table.get(), exchange.get(), preview.get()},
                    options.frames, options.out_every, std::move(orientation));
     log.info("ephemeris {}", loop.report().ephemeris_text());
-    const auto status_port =
-        open_status(config.status, status_facts(loop, outside, clock), *exchange, outside, clock, log);
+    const auto status_port = open_status(config.status, status_facts(loop, outside, clock), *exchange,
+                                         outside, clock, preview.get(), log);
     loop.warm_up();
     running = &loop;
     const std::int64_t cpu_before_ns = process_cpu_ns();

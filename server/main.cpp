@@ -12,6 +12,7 @@
 #include "server/bus_input.h"
 #include "server/daemon.h"
 #include "server/from_config.h"
+#include "server/start_weather/start_weather.h"
 
 namespace {
 
@@ -95,6 +96,11 @@ int run(int argc, char** argv) {
     }
     if (const std::string fault = skyig::server::identifier_fault(*loaded.config); !fault.empty()) {
         fmt::print(stderr, "{}: {}\n", options->config_path, fault);
+        return kWrongUsage;
+    }
+    if (const std::string fault = skyig::server::metar_fault(*loaded.config, options->config_path);
+        !fault.empty()) {
+        fmt::print(stderr, "{}\n", fault);
         return kWrongUsage;
     }
     if (options->check) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clients/body_name.h"
+#include "clients/skyig/cloud_command.h"
 #include "clients/skyig/decode_command.h"
 #include "clients/skyig/ephem/almanac.h"
 #include "clients/skyig/ephem/star_name.h"
@@ -26,9 +27,9 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 14> kVerbs{"host",  "shot",   "plan",  "channels", "bench",
-                                                  "ephem", "decode", "metar", "replay",   "record",
-                                                  "sky",   "status", "top",   "tone"};
+constexpr std::array<std::string_view, 15> kVerbs{"host",   "shot",  "plan",   "channels", "bench",
+                                                  "ephem",  "cloud", "decode", "metar",    "replay",
+                                                  "record", "sky",   "status", "top",      "tone"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -339,6 +340,7 @@ struct Verbs {
     ChannelsOptions channels;
     BenchOptions bench;
     EphemOptions ephem;
+    CloudOptions cloud;
     DecodeOptions decode;
     MetarOptions metar;
     ReplayOptions replay;
@@ -362,6 +364,7 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
     add_ephem(
         *app.add_subcommand("ephem", "where Sun, Moon, planets and stars stand, and when things happen"),
         verbs.ephem, verbs.horizon);
+    add_cloud(app, verbs.cloud);
     add_decode(app, verbs.decode);
     add_metar(app, verbs.metar);
     add_replay(*app.add_subcommand("replay", "send the datagrams of a capture onto the network again"),
@@ -398,6 +401,7 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     if (app.got_subcommand("channels")) invocation.options = verbs.channels;
     if (app.got_subcommand("bench")) invocation.options = verbs.bench;
     if (app.got_subcommand("ephem")) invocation.options = verbs.ephem;
+    if (app.got_subcommand("cloud")) invocation.options = verbs.cloud;
     if (app.got_subcommand("decode")) invocation.options = verbs.decode;
     if (app.got_subcommand("metar")) invocation.options = verbs.metar;
     if (app.got_subcommand("replay")) invocation.options = verbs.replay;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/cloud/slab_lookup.h"
 #include "render/cloud/slab_terms.h"
 
 namespace skyig::render::cloud {
@@ -11,6 +12,16 @@ namespace skyig::render::cloud {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kDeepest = 1e6F;
+// Optical depth within which a cloud's surface has no direction.
+constexpr float kSurface = 0.05F;
+
+// What absorption leaves of light scattered often, at a point under and over so much cloud.
+float survived(float above, float below, float absorption) noexcept {
+    const float whole = above + below;
+    const float back = (1.0F - passed_share(whole, absorption)) / (1.0F - passed_share(whole, 0.0F) + 1e-6F);
+    return std::min(1.0F, back) * passed_share(above, absorption) / passed_share(above, 0.0F);
+}
 
 BasicSlab<double> in_double(const BasicSlab<double>& slab) noexcept {
     return slab;
@@ -19,12 +30,21 @@ BasicSlab<double> in_double(const BasicSlab<float>& slab) noexcept {
     return {slab.optical_depth, slab.g, slab.albedo};
 }
 
+template <class Real>
+SlabFluxes<Real> by_eddington(const BasicSlab<Real>& slab, Real mu0) noexcept {
+    const BasicSlab<double> known = in_double(slab);
+    const auto mu = static_cast<double>(mu0);
+    const SlabFluxes<double> all = eddington_fluxes(cut_peak(known), mu);
+    return {static_cast<Real>(all.transmitted), static_cast<Real>(all.reflected),
+            static_cast<Real>(std::exp(-known.optical_depth / mu))};
+}
+
 // Light scattered once past the cut peak (Nakajima & Tanaka, J. Quant. Spectrosc. Radiat. Transfer 40 (1988)
 // 51: TMS), and what the fluxes are left with, spread evenly; below by the K(mu) of thick cloud.
 template <class Real>
 Real tms_brf(const BasicSlab<Real>& slab, bool above, Real mu0, Real mu, Real cos_scatter) noexcept {
     const CutSlab<Real> cut = cut_peak(slab);
-    const SlabFluxes<Real> all = slab_fluxes(slab, mu0);
+    const SlabFluxes<Real> all = by_eddington(slab, mu0);
     const Real peaked = cloud_phase(CloudPhase::kHenyeyGreenstein, slab.g, cos_scatter) * slab.albedo /
                         cut.share * once_scattered(above, cut.depth, mu0, mu) / (Real(4) * mu0);
     // The flux of its smooth counterpart, by three Gauss points.
@@ -66,11 +86,7 @@ float marched_brf(const Slab& slab, bool above, float mu0, float mu, float cos_s
 
 template <class Real>
 SlabFluxes<Real> slab_fluxes(const BasicSlab<Real>& slab, Real mu0) noexcept {
-    const BasicSlab<double> known = in_double(in_range(slab));
-    const double mu = kept_off_horizon(static_cast<double>(mu0));
-    const SlabFluxes<double> all = eddington_fluxes(cut_peak(known), mu);
-    return {static_cast<Real>(all.transmitted), static_cast<Real>(all.reflected),
-            static_cast<Real>(std::exp(-known.optical_depth / mu))};
+    return table_fluxes(in_range(slab), kept_off_horizon(mu0));
 }
 
 template <class Real>
@@ -97,6 +113,7 @@ Real slab_brf(SlabModel model, const BasicSlab<Real>& asked, bool above, Real mu
     const Real mu = kept_off_horizon(mu_asked);
     switch (model) {
         case SlabModel::kTable:
+            return table_brf(slab, above, mu0, mu, cos_scatter);
         case SlabModel::kTms:
             return tms_brf(slab, above, mu0, mu, cos_scatter);
         case SlabModel::kMarch:
@@ -105,7 +122,7 @@ Real slab_brf(SlabModel model, const BasicSlab<Real>& asked, bool above, Real mu
                  static_cast<float>(slab.albedo)},
                 above, static_cast<float>(mu0), static_cast<float>(mu), static_cast<float>(cos_scatter)));
         case SlabModel::kEddington: {
-            const SlabFluxes<Real> all = slab_fluxes(slab, mu0);
+            const SlabFluxes<Real> all = by_eddington(slab, mu0);
             return above ? all.reflected : std::max(Real(0), all.transmitted - all.direct);
         }
         default:
@@ -115,47 +132,52 @@ Real slab_brf(SlabModel model, const BasicSlab<Real>& asked, bool above, Real mu
 
 CloudScatter::CloudScatter(float mu0, const CloudOptics& optics) noexcept
     : optics_(optics), mu0_(kept_off_horizon(mu0)), from_below_(mu0 < 0.0F) {
-    const CutSlab<float> cut = cut_peak(in_range(Slab{1.0F, optics.g, optics.albedo}));
-    share_ = cut.share;
-    cut_g_ = cut.g;
+    const Slab medium = in_range(Slab{1.0F, optics.g, optics.albedo});
+    optics_.g = medium.g;
+    optics_.albedo = medium.albedo;
+    transport_ = 1.0F - medium.albedo * medium.g;
+    absorption_ = TableMedia::absorption(medium.g, medium.albedo);
 }
 
 CloudScatter::Ray CloudScatter::ray(float mu_view, float cos_scatter) const noexcept {
+    const float cosine = std::clamp(cos_scatter, -1.0F, 1.0F);
     Ray ray;
     ray.scatter_ = this;
-    ray.single_ = cloud_phase(optics_.phase, optics_.g, cos_scatter) * optics_.albedo / share_;
+    ray.peak_ = cloud_phase(CloudPhase::kHenyeyGreenstein, optics_.g * optics_.g, cosine);
+    ray.once_ = cloud_phase(optics_.phase, optics_.g, cosine) * optics_.albedo / (4.0F * kPi);
+    ray.twice_ = ray.peak_ * optics_.albedo * optics_.albedo / (4.0F * kPi);
     ray.mu_ = std::clamp(from_below_ ? -mu_view : mu_view, -1.0F, 1.0F);
-    ray.turn_ = cos_scatter + ray.mu_ * mu0_;
+    const InsideView view = inside_view(optics_.g, ray.mu_);
+    ray.by_g_ = view.by_g;
+    ray.view_ = view.cosine.low;
+    ray.view_part_ = view.cosine.part;
+    ray.cosine_ = cosine;
     return ray;
 }
 
 float CloudScatter::Ray::source(const CloudPoint& asked) const noexcept {
     const CloudScatter& own = *scatter_;
-    const float towards = std::clamp(asked.towards_source, 0.0F, 1e6F);
-    const float over = std::clamp(own.from_below_ ? asked.below : asked.above, 0.0F, 1e6F);
-    const float under = std::clamp(own.from_below_ ? asked.above : asked.below, 0.0F, 1e6F);
+    const float towards = std::clamp(asked.towards_source, 0.0F, kDeepest);
+    const float over = std::clamp(own.from_below_ ? asked.below : asked.above, 0.0F, kDeepest);
+    const float under = std::clamp(own.from_below_ ? asked.above : asked.below, 0.0F, kDeepest);
     // A face turned to the source is lit like the top of a slab that lies so; in a slab mu is mu0.
-    const float mu = over >= towards ? 1.0F : std::clamp(over / towards, own.mu0_, 1.0F);
-    const float depth = own.share_ * towards * mu;
-    const float whole = std::max(own.share_ * over, depth) + own.share_ * under;
-    // Eddington's solution: mean intensity and flux of the scattered light at the point.
-    const float beam = std::exp(-own.share_ * towards);
-    const float scaled = 1.0F - own.cut_g_;
-    const float end = std::exp(-whole / mu);
-    const float net = (2.0F + 3.0F * mu + (2.0F - 3.0F * mu) * end) / (4.0F + 3.0F * scaled * whole);
-    const float quarter = 0.75F / kPi * mu;
-    const float mean = 0.5F / kPi * mu * (1.0F - net) - quarter * (scaled * net * depth - mu * (1.0F - beam));
-    const float down = quarter * (net - beam);
-    const float diffuse = std::max(0.0F, mean - own.cut_g_ * mu_ * down);
-    return single_ * beam / (4.0F * kPi) + diffuse;
+    const float mu = std::clamp((over + kSurface * own.mu0_) / (towards + kSurface), own.mu0_, 1.0F);
+    const float depth = own.transport_ * std::min(towards * mu, kDeepest);
+    const float rest = std::max(own.transport_ * over - depth, 0.0F) + own.transport_ * under;
+    const InsideTable::Node terms = inside_terms({by_g_, {view_, view_part_}}, depth, rest, mu);
+    const float sines = std::sqrt((1.0F - mu * mu) * (1.0F - mu_ * mu_));
+    const auto modes = azimuth_modes(std::clamp(cosine_ + mu_ * mu, -sines, sines), mu, mu_);
+    const float left = terms[0] + terms[1] * modes[1] + terms[2] * modes[2] + terms[3] * peak_;
+    float often = mu / kPi * even_share(depth, rest) * std::max(0.0F, left);
+    if (own.absorption_ > 0.0F) often *= survived(depth, rest, own.absorption_);
+    return std::exp(-towards) * (once_ + twice_ * towards) + often;
 }
 
 CloudAmbient CloudScatter::ambient(const CloudPoint& point) const noexcept {
-    const float scale = 0.75F * (1.0F - optics_.g);
-    const float above = scale * std::clamp(point.above, 0.0F, 1e6F);
-    const float below = scale * std::clamp(point.below, 0.0F, 1e6F);
-    const float whole = 1.0F + above + below;
-    return {(0.5F + below) / whole, (0.5F + above) / whole};
+    const float above = transport_ * std::clamp(point.above, 0.0F, kDeepest);
+    const float below = transport_ * std::clamp(point.below, 0.0F, kDeepest);
+    const float from_above = even_share(above, below);
+    return {from_above, 1.0F - from_above};
 }
 
 float slab_source(const Slab& whole, float depth_above, float mu0, float mu_view,

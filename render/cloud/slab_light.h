@@ -115,9 +115,14 @@ class CloudScatter {
       private:
         friend class CloudScatter;
         const CloudScatter* scatter_ = nullptr;
-        float single_ = 0.0F;
+        float once_ = 0.0F;
+        float twice_ = 0.0F;
+        float peak_ = 0.0F;
         float mu_ = 0.0F;
-        float turn_ = 0.0F;
+        std::array<float, 2> by_g_{};  // shares of the tables, and where in them the view lies
+        std::size_t view_ = 0;
+        float view_part_ = 0.0F;
+        float cosine_ = 1.0F;
     };
     /// \param mu_view  of the direction in which the light travels, -1..1: > 0 when the eye is above, that
     /// is minus the view ray's z \param cos_scatter  dot(view ray, direction to the source). Refers to this.
@@ -129,8 +134,8 @@ class CloudScatter {
     CloudOptics optics_;
     float mu0_ = 1.0F;
     bool from_below_ = false;
-    float share_ = 1.0F;
-    float cut_g_ = 0.0F;
+    float transport_ = 0.15F;
+    float absorption_ = 0.0F;
 };
 
 /// Source function of a slab's point under `depth_above`, pi S / (mu0 F0), as CloudScatter has it: integrated

@@ -175,7 +175,7 @@ void StreakField::fill_shell(const Fall& fall, const Shell& shell) noexcept {
     const double box_m = 4.0 * shell.from_m;
     const double places = static_cast<double>(kFirstShellPlaces << shell.index) * look.share *
                           std::min(1.0, std::sqrt(fall.extinction_per_m / kDense_per_m)) *
-                          std::min(1.0, std::pow(kShort_m / fall.length_m, 0.6));
+                          std::min(1.0, std::pow(kShort_m / fall.length_m, 0.8));
     // What the shell's drops dim, spread over what its rods cover of all directions: the mean over the shell
     // of a rod that points anywhere and is round at its ends.
     const double covered_sr = places * kInShell * kNearer * 0.25 * std::numbers::pi * look.width_rad *

@@ -33,6 +33,7 @@ void CloudField::march(std::span<const CloudRay> rays, const CloudRange& range, 
             batch.direction[1][i] = direction.y;
             batch.direction[2][i] = direction.z;
         }
+        batch.count = static_cast<int>(count);
         kernels_->march(field_, batch);
         for (std::size_t i = 0; i < count; ++i) {
             out[first + i] = {{batch.light[0][i], batch.light[1][i], batch.light[2][i]},

@@ -1,6 +1,6 @@
-// Clouds as a field of density over the Earth: the models `volume` (marched through solid noise, after Schneider
-// & Vos 2015) and `layer` (one look at flat noise) behind CloudSource. Where there is cloud depends on place,
-// drift, age and seed alone, so that all who draw one weather draw the same clouds.
+// Clouds as a field of density over the Earth: the models `volume` (marched through solid noise, after
+// Schneider & Vos 2015) and `layer` (one look at flat noise) behind CloudSource. Where there is cloud depends
+// on place, drift, age and seed alone, so that all who draw one weather draw the same clouds.
 #pragma once
 
 #include <memory>
@@ -8,16 +8,20 @@
 #include "render/cloud/cloud_light.h"
 #include "render/cloud/cloud_source.h"
 #include "render/cloud/field/coverage.h"
+#include "render/cloud/field/inside_light.h"
 #include "render/cloud/field/kernels.h"
 #include "render/cloud/field/noise.h"
 #include "render/scene.h"
 
 namespace skyig::render::cloud::field {
 
-/// What does not change from frame to frame: noise, and the coverage measured on it. Made once, shared.
+/// What does not change from frame to frame: noise, the coverage measured on it, light
+/// inside. Made once, shared.
 struct Matrix {
     Noise noise;
     Coverage coverage{noise};
+    InsideLight water{kWaterG};
+    InsideLight ice{kIceG};
 };
 
 class CloudField final : public CloudSource {
@@ -26,8 +30,8 @@ class CloudField final : public CloudSource {
     explicit CloudField(std::shared_ptr<const Matrix> matrix, const Kernels& variant = kernels());
 
     /// Takes the eye, the layers and the light of one frame; nothing of them is kept. Layers without
-    /// thickness, coverage or finite numbers are left out, and so are those of other models than kVolume (kAuto
-    /// counts as it) and kLayer. Allocates nothing.
+    /// thickness, coverage or finite numbers are left out, and so are those of kImpostor. kAuto is kVolume,
+    /// but ice clouds, which are thin, are sheets then, in the volume's light. Allocates nothing.
     void freeze(const Scene& scene, const CloudLight& light) noexcept;
 
     void march(std::span<const CloudRay> rays, const CloudRange& range, float ray_rad,

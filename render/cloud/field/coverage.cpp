@@ -8,7 +8,7 @@ namespace skyig::render::cloud::field {
 namespace {
 
 constexpr int kHeights = 16;
-constexpr int kColumns = 1024;
+constexpr int kColumns = 4096;
 static_assert(kRays % kHeights == 0);
 
 using Column = std::array<float, kHeights>;
@@ -48,7 +48,7 @@ float mean_density(const Column& column, float threshold, float edge) {
 float threshold_of(const Column& column, float edge, float part) {
     float high = *std::max_element(column.begin(), column.end());
     float low = high - edge - 2.0F;
-    for (int step = 0; step < 16; ++step) {
+    for (int step = 0; step < 12; ++step) {
         const float middle = 0.5F * (low + high);
         (mean_density(column, middle, edge) > part ? low : high) = middle;
     }
@@ -87,7 +87,8 @@ Coverage::Coverage(const Noise& noise) {
 }
 
 float Coverage::threshold(CloudGenus genus, double coverage, double optical_depth) const noexcept {
-    const auto& curves = curves_[static_cast<std::size_t>(genus) < kGenera ? static_cast<std::size_t>(genus) : 0];
+    const auto& curves =
+        curves_[static_cast<std::size_t>(genus) < kGenera ? static_cast<std::size_t>(genus) : 0];
     const double place = std::clamp(coverage, 0.0, 1.0) * static_cast<double>(kParts);
     const std::size_t low = std::min(static_cast<std::size_t>(place), kParts - 1);
     const auto part = static_cast<float>(place - static_cast<double>(low));

@@ -8,9 +8,9 @@
 
 namespace skyig::render::cloud::field {
 
-/// Measured once for each genus on the field itself: columns spread over the world, each with the threshold at
-/// which it begins to hide what is behind it (opacity 0.5, or a quarter of what the layer has where that is
-/// less). The part of the columns above a threshold is the coverage.
+/// Measured once for each genus on the field itself: columns spread over the world, each with the threshold
+/// at which it begins to hide what is behind it (opacity 0.5, or a quarter of what the layer has where that
+/// is less). The part of the columns above a threshold is the coverage.
 class Coverage {
   public:
     explicit Coverage(const Noise& noise);

@@ -12,7 +12,9 @@
 namespace skyig::render::cloud::field {
 namespace {
 
-float f32(double x) { return static_cast<float>(x); }
+float f32(double x) {
+    return static_cast<float>(x);
+}
 
 bool is_cloud(const CloudLayer& cloud) {
     if (cloud.model == CloudModel::kImpostor) return false;
@@ -26,7 +28,7 @@ bool is_cloud(const CloudLayer& cloud) {
 
 double extinction_of(const CloudLayer& cloud) {
     const double own = static_cast<double>(genus_of(cloud.genus).extinction_per_m);
-    return std::clamp(cloud.extinction_per_m > 0.0 ? cloud.extinction_per_m : own, 1e-7, 1e3);
+    return std::clamp(cloud.extinction_per_m > 0.0 ? cloud.extinction_per_m : own, 1e-12, 1e3);
 }
 
 Area area_of(const CloudLayer& cloud) {
@@ -41,25 +43,46 @@ Area area_of(const CloudLayer& cloud) {
             f32(std::max(told.perimeter_m, 0.0))};
 }
 
-// A storm grows its anvil with its severity.
+// A storm grows from a heap to an anvil with its severity.
 void grow(const CloudLayer& cloud, Shape& shape) {
     if (cloud.genus != CloudGenus::kCumulonimbus) return;
-    const auto severity = f32(std::clamp(cloud.severity, 0.0, 1.0));
-    shape.lift[2] *= severity;
+    constexpr std::array<float, 3> kHeap{0.30F, 0.40F, 0.0F};
+    const auto grown = f32(std::clamp(cloud.severity, 0.0, 1.0));
+    for (std::size_t i = 0; i < kHeap.size(); ++i)
+        shape.lift[i] = glm::mix(kHeap[i], shape.lift[i], grown);
+}
+
+// Coverage moves the sum's mean from where no tile brings it over 0 to where none brings it below.
+void tell(const CloudLayer& cloud, Layer& layer) {
+    double weights = 0.0;
+    for (const CloudLook::Tile& tile : cloud.look->tiles)
+        weights += std::abs(tile.weight);
+    const double mean = cloud.look->density_offset + (cloud.coverage - 0.5) * weights;
+    layer.threshold = f32(-mean);
+    layer.dry = f32(std::max(mean, 0.0) + weights);
+    layer.self_shadow = f32(std::max(cloud.look->self_shadow, 0.0));
 }
 
 Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnchor& anchor) {
     const Genus& genus = genus_of(cloud.genus);
-    Layer layer{};
-    layer.shape = shape_of(matrix.noise, cloud.genus,
-                           {anchor.eye_m.x - cloud.drift_m.x, anchor.eye_m.y - cloud.drift_m.y, cloud.age_s,
-                            cloud.seed});
-    grow(cloud, layer.shape);
-    layer.sheet = cloud.model == CloudModel::kLayer;
+    const ShapePlace place{anchor.eye_m.x - cloud.drift_m.x, anchor.eye_m.y - cloud.drift_m.y, cloud.age_s,
+                           cloud.seed};
     const double extinction = extinction_of(cloud);
-    const double depth = extinction * cloud.thickness_m;
-    layer.threshold = matrix.coverage.threshold(cloud.genus, cloud.coverage, depth);
-    layer.dry = matrix.coverage.threshold(cloud.genus, 0.0, depth) - layer.threshold + 0.5F;
+    Layer layer{};
+    // Ice is thin: a look shows its threads as well as a march, and sharper.
+    layer.slab_lit = cloud.model == CloudModel::kAuto && genus.ice;
+    layer.sheet = layer.slab_lit || cloud.model == CloudModel::kLayer;
+    if (cloud.model == CloudModel::kLayer && cloud.look) {
+        layer.shape = shape_of(matrix.noise, *cloud.look, place);
+        tell(cloud, layer);
+    } else {
+        const double depth = extinction * cloud.thickness_m;
+        layer.shape = shape_of(matrix.noise, cloud.genus, place);
+        grow(cloud, layer.shape);
+        layer.threshold = matrix.coverage.threshold(cloud.genus, cloud.coverage, depth);
+        layer.dry = matrix.coverage.threshold(cloud.genus, 0.0, depth) - layer.threshold + 0.5F;
+        layer.self_shadow = 1.0F;
+    }
     layer.base_m = f32(cloud.base_m);
     layer.thickness_m = f32(cloud.thickness_m);
     layer.bottom_band_m = f32(std::max(cloud.bottom_band_m, 0.0));
@@ -67,14 +90,15 @@ Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnch
     layer.bottom_scud = f32(std::clamp(cloud.bottom_scud, 0.0, 1.0));
     layer.top_scud = f32(std::clamp(cloud.top_scud, 0.0, 1.0));
     layer.extinction_per_m = f32(extinction);
-    layer.step_m = std::min(genus.step_m, 0.25F * layer.thickness_m);
-    layer.stride_m = genus.stride_m;
     layer.area = area_of(cloud);
-    layer.g = genus.g;
+    layer.g = genus.ice ? kIceG : kWaterG;
+    layer.inside = (genus.ice ? matrix.ice : matrix.water).nodes();
     return layer;
 }
 
-float upper(const Layer& layer) { return layer.base_m + layer.thickness_m; }
+float upper(const Layer& layer) {
+    return layer.base_m + layer.thickness_m;
+}
 
 // How much of `layer` lies under `other`: 0 at the same height, 1 where it lies wholly below.
 float part_under(const Layer& layer, const Layer& other) {
@@ -89,20 +113,22 @@ struct Veil {
 
 // What the layer as a whole, with its gaps, leaves of light on it.
 Veil veil_of(const CloudLayer& cloud, double mu0) {
-    const Slab slab{f32(extinction_of(cloud) * cloud.thickness_m), genus_of(cloud.genus).g, 1.0F};
     // Its full depth is that of its middle only: the mean is less.
-    const SlabFluxes<float> fluxes = slab_fluxes(Slab{0.6F * slab.optical_depth, slab.g, 1.0F}, f32(mu0));
+    constexpr double kMean = 0.6;
+    const Slab slab{f32(kMean * extinction_of(cloud) * cloud.thickness_m),
+                    genus_of(cloud.genus).ice ? kIceG : kWaterG, 1.0F};
+    const SlabFluxes<float> fluxes = slab_fluxes(slab, f32(mu0));
     const auto part = f32(std::min(cloud.coverage, 1.0));
     // Weather that is elsewhere dims nothing here.
     const float here = cloud.area ? 0.0F : part;
     return {1.0F - here * (1.0F - fluxes.transmitted), here * fluxes.reflected};
 }
 
-Shine shine_of(const glm::vec3& base, const glm::vec3& top, float part) {
+Shine shine_of(const glm::vec3& base, const glm::vec3& top, const glm::vec3& part) {
     Shine shine{};
     for (int c = 0; c < 3; ++c) {
-        shine.base[c] = part * base[c];
-        shine.gain[c] = part * (top[c] - base[c]);
+        shine.base[c] = part[c] * base[c];
+        shine.gain[c] = part[c] * (top[c] - base[c]);
     }
     return shine;
 }
@@ -130,8 +156,8 @@ float left_over(const Sky& sky, const Layer& layer, double mu0, bool above) {
 
 constexpr double kDiffuseMu = 0.6;
 
-void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& base, const CloudLight::At& top,
-                 Layer& layer) {
+void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& base,
+                 const CloudLight::At& top, Layer& layer) {
     for (std::size_t s = 0; s < CloudLight::kSources; ++s) {
         const Beam& beam = light.beams[s];
         LayerBeam& own = layer.beams[s];
@@ -142,12 +168,13 @@ void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& 
             own.direction[c] = beam.direction_enu[c];
         const double mu0 = std::max(0.05, std::abs(static_cast<double>(beam.direction_enu.z)));
         own.lx = shine_of(base.beam_lx[s], top.beam_lx[s],
-                          left_over(sky, layer, mu0, beam.direction_enu.z >= 0.0F));
+                          glm::vec3(left_over(sky, layer, mu0, beam.direction_enu.z >= 0.0F)));
     }
     // A source that is a ten-thousandth of the other is not worth its looks.
     constexpr float kFaint = 1e-4F;
     const auto strength = [&](std::size_t s) {
-        return layer.beams[s].lit ? layer.beams[s].lx.base[1] + std::max(layer.beams[s].lx.gain[1], 0.0F) : 0.0F;
+        return layer.beams[s].lit ? layer.beams[s].lx.base[1] + std::max(layer.beams[s].lx.gain[1], 0.0F)
+                                  : 0.0F;
     };
     const float sun = strength(CloudLight::kSun);
     const float moon = strength(CloudLight::kMoon);
@@ -155,12 +182,12 @@ void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& 
     if (sun < kFaint * moon) layer.beams[CloudLight::kSun].lit = false;
 }
 
-// Even light: the sky through what lies above, and from below what ground and clouds there throw up of what the
-// clouds let through.
+// Even light: the sky through what lies above, and from below what ground and clouds there throw up of what
+// the clouds let through.
 void shine_evenly(const Sky& sky, const CloudLight::At& base, const CloudLight::At& top, const Known& own,
                   Layer& layer) {
     const float from_sky = left_over(sky, layer, kDiffuseMu, true);
-    layer.above_cd_m2 = shine_of(base.above_cd_m2, top.above_cd_m2, from_sky);
+    layer.above_cd_m2 = shine_of(base.above_cd_m2, top.above_cd_m2, glm::vec3(from_sky));
     glm::vec3 down = std::numbers::pi_v<float> * base.above_cd_m2 * from_sky;
     for (const LayerBeam& beam : layer.beams) {
         if (beam.lit && beam.direction[2] > 0.0F)
@@ -172,9 +199,26 @@ void shine_evenly(const Sky& sky, const CloudLight::At& base, const CloudLight::
     for (std::size_t k = 0; k < sky.count; ++k) {
         const float part = part_under(sky.layers[k].layer, layer);
         if (part > 0.0F)
-            up += part * veil_of(*sky.layers[k].cloud, kDiffuseMu).returned * down / std::numbers::pi_v<float>;
+            up +=
+                part * veil_of(*sky.layers[k].cloud, kDiffuseMu).returned * down / std::numbers::pi_v<float>;
     }
-    layer.below_cd_m2 = shine_of(up, up, 1.0F);
+    layer.below_cd_m2 = shine_of(up, up, glm::vec3(1.0F));
+}
+
+void tint(Shine& shine, const glm::vec3& colour) {
+    for (int c = 0; c < 3; ++c) {
+        shine.base[c] *= colour[c];
+        shine.gain[c] *= colour[c];
+    }
+}
+
+void colour_layer(const CloudLayer& cloud, Layer& layer) {
+    if (cloud.model != CloudModel::kLayer || !cloud.look) return;
+    const glm::vec3 colour = glm::max(glm::vec3(cloud.look->colour), glm::vec3(0.0F));
+    for (LayerBeam& beam : layer.beams)
+        tint(beam.lx, colour);
+    tint(layer.above_cd_m2, colour);
+    tint(layer.below_cd_m2, colour);
 }
 
 void shine_on(Sky& sky, const CloudLight& light) {
@@ -184,31 +228,58 @@ void shine_on(Sky& sky, const CloudLight& light) {
         const CloudLight::At top = light.at(static_cast<double>(upper(layer)));
         shine_beams(sky, light, base, top, layer);
         shine_evenly(sky, base, top, sky.layers[k], layer);
+        colour_layer(*sky.layers[k].cloud, layer);
     }
 }
 
-float low_of(const Layer& layer) { return layer.base_m - layer.bottom_band_m; }
-float high_of(const Layer& layer) { return upper(layer) + layer.top_band_m; }
+float low_of(const Layer& layer) {
+    return layer.base_m - layer.bottom_band_m;
+}
+float high_of(const Layer& layer) {
+    return upper(layer) + layer.top_band_m;
+}
+
+// A step is this part of the way to it where it is neither shortest nor longest.
+constexpr float kRate = 0.005F;
+
+Cells cells_of(float least_m, float most_m) {
+    Cells cells{};
+    cells.least_m = least_m;
+    cells.rate = kRate;
+    cells.most_m = std::max(most_m, least_m);
+    cells.near_m = least_m / kRate;
+    cells.near = 1.0F / kRate;
+    cells.far_m = cells.most_m / kRate;
+    cells.far = cells.near + std::log(cells.far_m / cells.near_m) / kRate;
+    return cells;
+}
 
 // Layers by height, those that overlap together; sheets each for themselves.
 void stack(const Sky& sky, Field& field) {
-    std::array<const Layer*, Weather::kMaxClouds> order{};
+    std::array<const Known*, Weather::kMaxClouds> order{};
     for (std::size_t k = 0; k < sky.count; ++k)
-        order[k] = &sky.layers[k].layer;
+        order[k] = &sky.layers[k];
     const auto end = order.begin() + static_cast<std::ptrdiff_t>(sky.count);
-    std::sort(order.begin(), end, [](const Layer* a, const Layer* b) {
-        if (a->sheet != b->sheet) return b->sheet;
-        return low_of(*a) != low_of(*b) ? low_of(*a) < low_of(*b) : a < b;
+    std::sort(order.begin(), end, [](const Known* one, const Known* other) {
+        const Layer& a = one->layer;
+        const Layer& b = other->layer;
+        if (a.sheet != b.sheet) return b.sheet;
+        return low_of(a) != low_of(b) ? low_of(a) < low_of(b) : one < other;
     });
     field.deck_count = 0;
     for (std::size_t k = 0; k < sky.count; ++k) {
-        const Layer& layer = *order[k];
-        const bool joins = field.deck_count > 0 && !layer.sheet &&
-                           low_of(layer) < field.decks[field.deck_count - 1].high_m;
-        if (!joins) field.decks[field.deck_count++] = {static_cast<int>(k), 0, low_of(layer), high_of(layer)};
+        const Layer& layer = order[k]->layer;
+        const Genus& genus = genus_of(order[k]->cloud->genus);
+        const Cells own = cells_of(std::min(genus.step_m, 0.1F * layer.thickness_m), genus.stride_m);
+        const bool joins =
+            field.deck_count > 0 && !layer.sheet && low_of(layer) < field.decks[field.deck_count - 1].high_m;
+        if (!joins)
+            field.decks[field.deck_count++] = {static_cast<int>(k), 0, low_of(layer), high_of(layer), own};
         Deck& deck = field.decks[field.deck_count - 1];
         ++deck.count;
         deck.high_m = std::max(deck.high_m, high_of(layer));
+        deck.cells =
+            cells_of(std::min(deck.cells.least_m, own.least_m), std::min(deck.cells.most_m, own.most_m));
         field.layers[k] = layer;
     }
     std::sort(field.decks, field.decks + field.deck_count, [](const Deck& a, const Deck& b) {

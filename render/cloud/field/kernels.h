@@ -1,5 +1,5 @@
-// The march through the cloud field, compiled once per instruction set and chosen at run time. Plain data only:
-// a type with inline functions would let the linker mix the instruction sets.
+// The march through the cloud field, compiled once per instruction set and chosen at run time. Plain data
+// only: a type with inline functions would let the linker mix the instruction sets.
 #pragma once
 
 namespace skyig::render::cloud::field {
@@ -10,7 +10,7 @@ struct Flat {
     float turn[4];  // xx, xy, yx, yy; texels a metre
     float at[2];    // of the eye, texels
     float weight;
-    float wave_m;   // its finest feature
+    float wave_m;  // its finest feature
 };
 
 /// One look-up in the solid tile.
@@ -58,11 +58,24 @@ struct LayerBeam {
 
 inline constexpr int kBeams = 2;
 
+/// InsideTable's axes (inside_light.h), the last one fastest; two entries a node.
+inline constexpr int kSlabViews = 11;
+inline constexpr int kSlabSources = 7;
+inline constexpr int kSlabDepths = 10;
+inline constexpr int kSlabPlaces = 9;
+struct SlabNodes {
+    const unsigned* entries;
+    float low[4];
+    float step[4];
+};
+
 struct Layer {
     Shape shape;
-    bool sheet;        // seed 001: one look, no march
+    bool sheet;         // seed 001: one look, no march
+    bool slab_lit;      // a sheet in the light of the slab models, not of the seed
+    float self_shadow;  // of a sheet
     float threshold;
-    float dry;         // added to the threshold where the area ends
+    float dry;  // added to the threshold where the area ends
     float base_m;
     float thickness_m;
     float bottom_band_m;
@@ -70,10 +83,9 @@ struct Layer {
     float bottom_scud;
     float top_scud;
     float extinction_per_m;
-    float step_m;      // the shortest
-    float stride_m;    // the longest
     Area area;
     float g;
+    SlabNodes inside;
     LayerBeam beams[kBeams];
     Shine above_cd_m2;
     Shine below_cd_m2;
@@ -81,18 +93,27 @@ struct Layer {
 
 inline constexpr int kMostLayers = 16;
 
+/// Lengths of the cells that the way from the eye is cut into: least_m up to near_m, where cell `near`
+/// begins; from there rate times the way, up to far_m and cell `far`; then most_m.
+struct Cells {
+    float least_m, rate, most_m;
+    float near_m, near;
+    float far_m, far;
+};
+
 /// Layers that overlap in height, marched together: layers[first] .. layers[first + count - 1].
 struct Deck {
     int first;
     int count;
     float low_m;
     float high_m;
+    Cells cells;
 };
 
 struct Field {
-    float eye_m;      // height
-    float ground_m;   // height at which rays end
-    float closing;    // of SeaAnchor
+    float eye_m;     // height
+    float ground_m;  // height at which rays end
+    float closing;   // of SeaAnchor
     Layer layers[kMostLayers];
     Deck decks[kMostLayers];  // by height
     int deck_count;
@@ -105,9 +126,17 @@ struct alignas(64) Rays {
     float light[3][kRays];
     float transmittance[kRays];
     float distance_m[kRays];
+    int count;
     float from_m;
     float to_m;
     float ray_rad;
+};
+
+/// The part of a ray between two heights, on its way down or up; empty if to <= from.
+struct alignas(64) Parts {
+    float sine[kRays];  // of the ray's elevation
+    float from_m[kRays];
+    float to_m[kRays];
 };
 
 struct alignas(64) Points {
@@ -127,12 +156,14 @@ struct alignas(64) Sources {
 
 struct Kernels {
     const char* name;
-    /// Fills light, transmittance and distance of all kRays rays.
+    /// Fills light, transmittance and distance of the first `count` rays.
     void (*march)(const Field& field, Rays& rays);
+    void (*parts)(float eye_m, float low_m, float high_m, bool rising, Parts& parts);
     /// Fills the values of a shape whose layer is this thick, all octaves at full weight.
     void (*values)(const Shape& shape, float thickness_m, Points& points);
     /// CloudScatter::Ray::source of clouds of this g that do not absorb.
-    void (*sources)(float g, float mu0, float mu_view, float cos_scatter, Sources& sources);
+    void (*sources)(const SlabNodes& inside, float g, float mu0, float mu_view, float cos_scatter,
+                    Sources& sources);
 };
 
 /// The fastest variant that this processor runs.

@@ -12,7 +12,8 @@ namespace {
 // Bits of one lattice point (after the finaliser of MurmurHash3).
 std::uint32_t bits_of(int x, int y, int z, std::uint32_t seed) {
     std::uint32_t h = seed * 0x9E3779B9U + static_cast<std::uint32_t>(x) * 0x85EBCA6BU +
-                      static_cast<std::uint32_t>(y) * 0xC2B2AE35U + static_cast<std::uint32_t>(z) * 0x27D4EB2FU;
+                      static_cast<std::uint32_t>(y) * 0xC2B2AE35U +
+                      static_cast<std::uint32_t>(z) * 0x27D4EB2FU;
     h ^= h >> 16;
     h *= 0x85EBCA6BU;
     h ^= h >> 13;
@@ -20,11 +21,17 @@ std::uint32_t bits_of(int x, int y, int z, std::uint32_t seed) {
     return h ^ (h >> 16);
 }
 
-float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24F; }
+float unit(std::uint32_t bits) {
+    return static_cast<float>(bits >> 8) * 0x1p-24F;
+}
 
-int wrap(int i, int period) { return ((i % period) + period) % period; }
+int wrap(int i, int period) {
+    return ((i % period) + period) % period;
+}
 
-float eased(float f) { return f * f * f * (f * (f * 6.0F - 15.0F) + 10.0F); }
+float eased(float f) {
+    return f * f * f * (f * (f * 6.0F - 15.0F) + 10.0F);
+}
 
 struct Grid {
     int nx = 1;
@@ -39,8 +46,10 @@ float perlin(const Grid& grid, float x, float y) {
     const float fx = x - static_cast<float>(ix);
     const float fy = y - static_cast<float>(iy);
     const auto corner = [&](int dx, int dy) {
-        const float angle = 6.2831853F * unit(bits_of(wrap(ix + dx, grid.nx), wrap(iy + dy, grid.ny), 0, grid.seed));
-        return std::cos(angle) * (fx - static_cast<float>(dx)) + std::sin(angle) * (fy - static_cast<float>(dy));
+        const std::uint32_t bits = bits_of(wrap(ix + dx, grid.nx), wrap(iy + dy, grid.ny), 0, grid.seed);
+        const float gx = 2.4F * (unit(bits) - 0.5F);
+        const float gy = 2.4F * (unit(bits * 0x9E3779B9U) - 0.5F);
+        return gx * (fx - static_cast<float>(dx)) + gy * (fy - static_cast<float>(dy));
     };
     const float low = glm::mix(corner(0, 0), corner(1, 0), eased(fx));
     const float high = glm::mix(corner(0, 1), corner(1, 1), eased(fx));
@@ -106,9 +115,9 @@ float sheet_value(Sheet which, float u, float v) {
             return bump({22, 22, 33}, 0.75F, u + warp, v - warp) + 0.5F * octaves({7, 7, 34}, 4, u, v);
         }
         case Sheet::kFibres: {
-            const float bend = 0.10F * octaves({3, 3, 41}, 3, u, v);
-            const float drawn = 0.05F * octaves({4, 8, 42}, 3, u, v);
-            return octaves({3, 24, 43}, 3, u + drawn, v + bend) + 0.9F * octaves({3, 5, 44}, 3, u, v + bend);
+            const float bend = 0.09F * octaves({2, 3, 41}, 2, u, v);
+            const float drawn = 0.06F * octaves({4, 6, 42}, 2, u, v);
+            return octaves({3, 20, 43}, 3, u + drawn, v + bend) + 0.5F * octaves({3, 5, 44}, 2, u, v + bend);
         }
     }
     return 0.0F;
@@ -140,7 +149,8 @@ std::vector<std::uint32_t> packed(const std::vector<std::uint8_t>& bytes, std::s
         const std::size_t row = i - x;
         const std::size_t next = row % slice + size == slice ? row + size - slice : row + size;
         const std::size_t right = (x + 1) % size;
-        entries[i] = static_cast<std::uint32_t>(bytes[i]) | static_cast<std::uint32_t>(bytes[row + right]) << 8U |
+        entries[i] = static_cast<std::uint32_t>(bytes[i]) |
+                     static_cast<std::uint32_t>(bytes[row + right]) << 8U |
                      static_cast<std::uint32_t>(bytes[next + x]) << 16U |
                      static_cast<std::uint32_t>(bytes[next + right]) << 24U;
     }
@@ -162,9 +172,10 @@ Noise::Noise() {
     constexpr std::size_t kSize = kBlockSize;
     values.resize(kSize * kSize * kSize);
     for (std::size_t i = 0; i < values.size(); ++i) {
-        values[i] = block_value(glm::vec3(static_cast<float>(i % kSize), static_cast<float>(i / kSize % kSize),
-                                          static_cast<float>(i / (kSize * kSize))) /
-                                static_cast<float>(kSize));
+        values[i] =
+            block_value(glm::vec3(static_cast<float>(i % kSize), static_cast<float>(i / kSize % kSize),
+                                  static_cast<float>(i / (kSize * kSize))) /
+                        static_cast<float>(kSize));
     }
     block_ = packed(ranks(values), kSize);
 }

@@ -17,9 +17,9 @@ enum class Sheet : std::uint8_t {
 };
 inline constexpr std::size_t kSheets = 4;
 
-/// Tiles of bytes, periodic. Each entry holds a texel and its next neighbours along x, y and both, lowest byte
-/// first: one fetch serves a bilinear look-up. Values of a sheet are spread evenly over 0..255 (each is a
-/// rank among all), so that the part of the area above a value is known.
+/// Tiles of bytes, periodic. Each entry holds a texel and its next neighbours along x, y and both, lowest
+/// byte first: one fetch serves a bilinear look-up. Values of a sheet are spread evenly over 0..255 (each is
+/// a rank among all), so that the part of the area above a value is known.
 class Noise {
   public:
     static constexpr int kSheetLog2 = 8;

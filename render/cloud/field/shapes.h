@@ -35,6 +35,10 @@ struct GenusFine {
     float weight = 0.0F;
 };
 
+/// Mean cosines of scattering.
+inline constexpr float kWaterG = 0.85F;
+inline constexpr float kIceG = 0.78F;
+
 struct Genus {
     std::array<GenusFlat, 3> flats{};
     /// How far the first pushes the second, in tiles of it, per unit of value.
@@ -43,12 +47,12 @@ struct Genus {
     std::array<float, 3> lift{};
     float edge = 0.2F;
     float reach_m = 200.0F;
-    float step_m = 25.0F;
-    float stride_m = 400.0F;
+    /// Shortest and longest steps through it.
+    float step_m = 16.0F;
+    float stride_m = 200.0F;
     float extinction_per_m = 0.05F;
     float usual_thickness_m = 500.0F;
-    /// Mean cosine of scattering: water or ice.
-    float g = 0.85F;
+    bool ice = false;
     /// Metres that its large shapes move against its small ones in a second, and that all rises.
     float change_m_s = 1.0F;
 };
@@ -66,5 +70,7 @@ struct ShapePlace {
     std::uint32_t seed = 0;
 };
 [[nodiscard]] Shape shape_of(const Noise& noise, CloudGenus genus, const ShapePlace& place) noexcept;
+/// The same of a layer that is told tile by tile.
+[[nodiscard]] Shape shape_of(const Noise& noise, const CloudLook& look, const ShapePlace& place) noexcept;
 
 }  // namespace skyig::render::cloud::field

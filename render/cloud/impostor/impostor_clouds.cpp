@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/sky/sea_waves.h"
+#include "render/weather_area.h"
 
 namespace skyig::render::cloud::impostor {
 
@@ -79,7 +80,12 @@ float ImpostorClouds::newest_part(const Cloud& cloud) const noexcept {
 }
 
 float ImpostorClouds::growth_now(const Cloud& cloud) const noexcept {
-    return growth(moment_.layer.coverage, cloud.key);
+    double coverage = moment_.layer.coverage;
+    if (moment_.layer.area) {
+        const glm::dvec3 middle = middle_m(cloud, moment_.eye);
+        coverage *= area_weight(*moment_.layer.area, {middle.x, middle.y});
+    }
+    return growth(coverage, cloud.key);
 }
 
 void ImpostorClouds::update(const Moment& moment) noexcept {

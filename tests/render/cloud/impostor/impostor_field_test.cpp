@@ -158,6 +158,24 @@ TEST(ImpostorField, MeetsNothingWhereThereIsNothing) {
         EXPECT_EQ(sky.at(spread_ray(i, 1000, -1.0, -0.05).direction_enu), CloudSample{});
 }
 
+TEST(ImpostorField, KeepsToTheAreaOfItsLayer) {
+    Sky sky(few_cells());
+    Moment moment = fair_weather(0.9);
+    WeatherArea area;
+    area.centre_m = {0.0, 6000.0};
+    area.corner_radius_m = 3000.0;
+    moment.layer.area = area;
+    sky.show(moment);
+    double north = 1.0;
+    for (std::size_t i = 0; i < 1000; ++i) {
+        const glm::vec3 way = spread_ray(i, 1000, 0.05, 1.0).direction_enu;
+        const CloudSample sample = sky.at(way);
+        if (way.y < 0.0F) EXPECT_EQ(sample, CloudSample{});
+        north = std::min(north, static_cast<double>(sample.transmittance));
+    }
+    EXPECT_LT(north, 0.05);
+}
+
 TEST(ImpostorField, AnswersFinitelyEverywhere) {
     Sky sky(few_cells());
     Moment moment = fair_weather(0.7);
