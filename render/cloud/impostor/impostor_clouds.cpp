@@ -262,6 +262,7 @@ void ImpostorClouds::take_picture(Cloud& cloud) noexcept {
     shade(particles(cloud), lit(cloud), shading_, middle, shaded);
     const float finest = class_radius_m(cloud.shape, 0) / (kTexelsARadius * glm::length(middle));
     Picture picture;
+    picture.bound_m = cloud.bound_m;
     picture.capture =
         capture_of(shaded, middle, std::max(moment_.texel_rad, finest), settings_.atlas.most_side);
     if (picture.capture.size.x > 0) {

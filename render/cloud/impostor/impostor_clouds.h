@@ -51,6 +51,8 @@ struct Moment {
 struct Picture {
     Atlas::Id id = Atlas::kNone;
     Capture capture;
+    /// Of the cloud that it shows.
+    float bound_m = 0.0F;
     /// That it was wanted with; the atlas may have had less room.
     float wanted_texel_m = 0.0F;
 };

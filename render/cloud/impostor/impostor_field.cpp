@@ -15,6 +15,7 @@ constexpr std::size_t kBins = static_cast<std::size_t>(kAzimuths) * kElevations;
 constexpr std::size_t kEntries = 1U << 18U;
 constexpr float kOpaque = 0.998F;
 constexpr float kFadeFrom = 0.85F;  // of a layer's range
+constexpr float kBeside = 1.05F;
 constexpr int kMostTaps = 4;
 // Of relief: opacity from which a depth is taken for what it says, and the farthest that it moves a look,
 // texels.
@@ -161,8 +162,9 @@ void ImpostorField::place(const ImpostorClouds& clouds, const Cloud& cloud, cons
     placed = {};
     placed.middle_m = glm::vec3{clouds.middle_m(cloud, eye)};
     placed.distance_m = glm::length(placed.middle_m);
-    // A picture may still show more than there is by now.
-    placed.bound_m = std::max(cloud.bound_m, cloud.shape.bound_m);
+    // A picture may still show more than there is by now, and a little beside its place.
+    placed.bound_m =
+        kBeside * std::max({cloud.bound_m, cloud.pictures[0].bound_m, cloud.pictures[1].bound_m});
     const auto range = static_cast<float>(clouds.range_m());
     placed.part = 1.0F - smooth_step(kFadeFrom * range, range, placed.distance_m);
     const float newest = clouds.newest_part(cloud);

@@ -1,8 +1,9 @@
 // Weather and light that the impostors' tests share.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <ctime>
 #include <glm/glm.hpp>
 
 #include "render/cloud/cloud_light.h"
@@ -34,11 +35,15 @@ inline Moment fair_weather(double coverage = 0.35) {
     return moment;
 }
 
-/// Metres to the north, with the speed and time of a flight.
 inline Eye moved_north(const Eye& eye, double metres) {
     Eye moved = eye;
     moved.latitude_deg += metres / 111195.0;
     return moved;
+}
+
+/// Of this process, so that others on the machine do not count.
+inline double cpu_ms() {
+    return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 /// Display value 0..255 of light before a sky of day, where a white sheet in the Sun is 255.
