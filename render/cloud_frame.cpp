@@ -23,6 +23,19 @@ cloud::ToneLaw law_of(const shaders64::ToneParameters& tone) noexcept {
             f(tone.ambient),   f(tone.shoulder),        f(tone.encode_power)};
 }
 
+// Whether some component of the light changes by more than an eighth from node to node.
+bool steep(const glm::vec3 (&light)[25]) noexcept {
+    constexpr float kStep = 0.125F;
+    const auto apart = [&](int i, int k) {
+        const glm::vec3 larger = glm::max(light[i], light[k]);
+        return glm::any(glm::greaterThan(glm::abs(light[i] - light[k]), kStep * larger));
+    };
+    for (int i = 0; i < 25; ++i) {
+        if ((i % 5 < 4 && apart(i, i + 1)) || (i < 20 && apart(i, i + 5))) return true;
+    }
+    return false;
+}
+
 glm::dvec3 body_direction(const SkyLight& light, const glm::dvec3& airless_enu) {
     const Horizontal airless = horizontal_of(airless_enu);
     return direction_of({light.refraction.apparent_from_true(airless.elevation_rad), airless.azimuth_rad});
@@ -34,6 +47,14 @@ glm::dvec3 body_direction(const SkyLight& light, const glm::dvec3& airless_enu) 
 struct CloudFrame::Nodes {
     std::array<std::array<float, kNodeCount>, 2> inverse_m{};  // of each part
     std::array<cloud::LightAndPassed, kNodeCount> near{};
+};
+
+// Codes of what stands behind a tile, at its nodes.
+struct CloudFrame::Behind {
+    static constexpr std::size_t kPadded = cloud::kToneRow;
+    /// Of each component.
+    float sky[3][kPadded];
+    float ground[3][kPadded];
 };
 
 CloudFrame::CloudFrame(std::size_t screens) : laws_(screens), texels_(screens) {
@@ -136,7 +157,6 @@ void CloudFrame::look_up(int tile, const SkyLight& light, const DeferredAir& air
         if (middle_rad + reach_rad > 0.0) backdrop.sky[i] = rgb(Side::kSky);
         if (middle_rad - reach_rad < 0.0) backdrop.ground[i] = rgb(Side::kGround);
         if (middle_rad + reach_rad <= 0.0) backdrop.sky[i] = backdrop.ground[i];
-        if (middle_rad - reach_rad >= 0.0) backdrop.ground[i] = backdrop.sky[i];
         const auto inverse_m = static_cast<double>(
             latest.inverse_distance(column / cloud::Snapshot::kNodeStep, row / cloud::Snapshot::kNodeStep,
                                     corner.lower));
@@ -147,6 +167,8 @@ void CloudFrame::look_up(int tile, const SkyLight& light, const DeferredAir& air
             glm::vec3{-glm::log(glm::max(between.passed_rgb, glm::dvec3{1e-12})) / distance_m};
         backdrop.convergence[node] = glm::vec3{between.added_rgb / kept};
     }
+    backdrop.horizon = std::abs(middle_rad) < reach_rad;
+    backdrop.steep = steep(backdrop.sky) || (backdrop.horizon && steep(backdrop.ground));
 }
 
 void CloudFrame::refresh_backdrops(const SkyLight& light, const DeferredAir& air, std::uint64_t revision) {
@@ -234,8 +256,7 @@ void spread(Fold fold, int row, At at, float* out) noexcept {
 
 }  // namespace
 
-void CloudFrame::gather_row(int tile, int row, const Nodes& nodes, double horizon_sine,
-                            cloud::ToneRow& out) const noexcept {
+void CloudFrame::gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRow& out) const noexcept {
     const MapGeometry& geometry = map_.geometry();
     const MapGeometry::Texel corner = geometry.corner(tile);
     const auto parts = map_.parts();
@@ -254,7 +275,6 @@ void CloudFrame::gather_row(int tile, int row, const Nodes& nodes, double horizo
     }
     const float scale = 2.0F / static_cast<float>(geometry.size() - 1);
     const float y = static_cast<float>(corner.row + row) * scale - 1.0F;
-    const auto least_sine = static_cast<float>(horizon_sine);
     for (int i = 0; i < kTile; ++i) {
         const float x = static_cast<float>(corner.column + i) * scale - 1.0F;
         glm::vec3 direction = shaders32::cloud_map_direction({x, y});
@@ -276,32 +296,78 @@ void CloudFrame::gather_row(int tile, int row, const Nodes& nodes, double horizo
         out.passed[i] = sum[3];
         out.opacity[i] = opacity;
         out.reach_m[i] = reach_m;
-        out.above[i] = direction.z > least_sine * glm::length(direction) ? 1.0F : 0.0F;
     }
 }
 
+void CloudFrame::show_behind(const Backdrop& backdrop, Behind& behind) const noexcept {
+    const auto show = [&](const glm::vec3(&light)[kNodeCount], float(&codes)[3][Behind::kPadded]) {
+        for (std::size_t i = 0; i < Behind::kPadded; ++i) {
+            const glm::vec3& rgb = light[std::min(i, kNodeCount - 1)];
+            for (int c = 0; c < 3; ++c)
+                codes[c][i] = rgb[c];
+        }
+        cloud::tone_kernel().show(laws_.front(), codes[0], codes[1], codes[2]);
+    };
+    show(backdrop.sky, behind.sky);
+    if (backdrop.horizon) show(backdrop.ground, behind.ground);
+}
+
+// One screen's rig has the codes behind at the nodes; where they bend, and for several screens, they are worked out.
 void CloudFrame::tone_tile(int tile, const SkyLight& light, std::size_t first) noexcept {
     const Backdrop& backdrop = backdrops_[static_cast<std::size_t>(tile)];
     Nodes nodes;
     fill_nodes(tile, nodes);
+    const MapGeometry& geometry = map_.geometry();
+    const MapGeometry::Texel corner = geometry.corner(tile);
+    const Fold fold = fold_of(corner, geometry.size());
+    const bool by_nodes = laws_.size() == 1 && !backdrop.steep;
+    Behind behind;
+    if (by_nodes) show_behind(backdrop, behind);
     const double horizon_sine = std::sin(light.horizon_elevation_rad);
-    const cloud::ToneKernel& kernel = cloud::tone_kernel();
-    const Fold fold = fold_of(map_.geometry().corner(tile), map_.geometry().size());
     cloud::ToneRow row;
+    float codes[3][kTile];
     for (int y = 0; y < kTile; ++y) {
-        gather_row(tile, y, nodes, horizon_sine, row);
+        gather_row(tile, y, nodes, row);
+        const auto lay = [&](const auto& at, float* out) { spread(fold, y, at, out); };
         for (int c = 0; c < 3; ++c) {
-            const auto lay = [&](const glm::vec3(&nodes_of)[kNodeCount], int channel) {
-                spread(fold, y, [&](std::size_t i) { return nodes_of[i][c]; }, row.smooth[channel + c]);
-            };
-            lay(backdrop.sky, cloud::kSky);
-            lay(backdrop.ground, cloud::kGround);
-            lay(backdrop.extinction, cloud::kExtinction);
-            lay(backdrop.convergence, cloud::kConvergence);
+            lay([&](std::size_t i) { return backdrop.sky[i][c]; }, row.smooth[cloud::kBehind + c]);
+            lay([&](std::size_t i) { return backdrop.extinction[i][c]; }, row.smooth[cloud::kExtinction + c]);
+            lay([&](std::size_t i) { return backdrop.convergence[i][c]; }, row.smooth[cloud::kConvergence + c]);
+            if (by_nodes) lay([&](std::size_t i) { return behind.sky[c][i]; }, codes[c]);
+            if (!backdrop.horizon) continue;
+            // The ground shows below the horizon.
+            float ground[kTile];
+            float ground_codes[kTile];
+            lay([&](std::size_t i) { return backdrop.ground[i][c]; }, ground);
+            if (by_nodes) lay([&](std::size_t i) { return behind.ground[c][i]; }, ground_codes);
+            for (int i = 0; i < kTile; ++i) {
+                const glm::dvec3 direction{geometry.direction(corner.column + i, corner.row + y, corner.lower)};
+                if (direction.z > horizon_sine * glm::length(direction)) continue;
+                row.smooth[cloud::kBehind + c][i] = ground[i];
+                if (by_nodes) codes[c][i] = ground_codes[i];
+            }
         }
-        for (std::size_t screen = 0; screen < laws_.size(); ++screen)
-            kernel.tone(laws_[screen], row, &texels_[screen][first + static_cast<std::size_t>(y * kTile * 4)]);
+        for (std::size_t screen = 0; screen < laws_.size(); ++screen) {
+            cloud::tone_kernel().tone(laws_[screen], row, by_nodes ? codes[0] : nullptr,
+                                      &texels_[screen][first + static_cast<std::size_t>(y * kTile * 4)]);
+        }
     }
+}
+
+// Whether a tile of the texture still shows what it should: nothing has changed but the eye's place, and that by
+// less than a quarter of a fine pixel.
+bool CloudFrame::serves(int tile, std::uint64_t tone_revision) const noexcept {
+    const Made& made = made_[static_cast<std::size_t>(tile)];
+    if (!made.clouded || made.tone != tone_revision || made.map != map_.revision()) return false;
+    constexpr float kStep_rad = 2.2e-4F;
+    const glm::vec3 axis{map_.cone(tile).axis};
+    const auto parts = map_.parts();
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const glm::vec3 moved_m = parts[k].offset_m - made.offsets_m[k];
+        const float aside_m = glm::length(glm::cross(axis, moved_m));
+        if (aside_m * parts[k].snapshot->nearest_inverse(tile) > kStep_rad) return false;
+    }
+    return true;
 }
 
 void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
@@ -333,13 +399,15 @@ void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
     std::size_t first = 0;
     for (const int tile : clouded_tiles_) {
         Made& made = made_[static_cast<std::size_t>(tile)];
-        if (made.clouded && made.map == map_.revision() && made.tone == tone_revision) continue;
+        if (serves(tile, tone_revision)) continue;
         tone_tile(tile, light, first);
         toned_.push_back({tile, first});
         first += kTileFloats;
         made.clouded = true;
         made.map = map_.revision();
         made.tone = tone_revision;
+        for (std::size_t k = 0; k < map_.parts().size(); ++k)
+            made.offsets_m[k] = map_.parts()[k].offset_m;
     }
 }
 

@@ -78,6 +78,10 @@ class CloudFrame {
         glm::vec3 ground[kNodeCount];
         glm::vec3 extinction[kNodeCount];
         glm::vec3 convergence[kNodeCount];
+        /// Both stand behind it.
+        bool horizon = false;
+        /// Light changes so much between nodes that its codes do not go straight.
+        bool steep = false;
     };
     /// What a tile of the texture was made from.
     struct Made {
@@ -85,6 +89,7 @@ class CloudFrame {
         std::uint64_t map = 0;
         std::uint64_t tone = 0;
         bool clouded = false;
+        std::array<glm::vec3, 2> offsets_m{};  // of the map's parts
     };
     void resize();
     [[nodiscard]] glm::dvec3 composed(const cloud::CloudMap::Sight& sight, const DeferredAir& air,
@@ -95,8 +100,10 @@ class CloudFrame {
     void tone_tile(int tile, const SkyLight& light, std::size_t first) noexcept;
     struct Nodes;
     void fill_nodes(int tile, Nodes& nodes) const noexcept;
-    void gather_row(int tile, int row, const Nodes& nodes, double horizon_sine,
-                    cloud::ToneRow& out) const noexcept;
+    void gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRow& out) const noexcept;
+    struct Behind;
+    void show_behind(const Backdrop& backdrop, Behind& behind) const noexcept;
+    [[nodiscard]] bool serves(int tile, std::uint64_t tone_revision) const noexcept;
 
     cloud::CloudMap map_;
     bool shown_ = false;

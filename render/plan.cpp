@@ -114,6 +114,7 @@ Cost cost_of(Pass pass) {
         case Pass::kCorona:
         case Pass::kSunDisc:
         case Pass::kMoonDisc:
+        case Pass::kWetThings:
         case Pass::kPrecipitation:
         case Pass::kSunGlare:
         case Pass::kMoonGlare:
@@ -177,8 +178,9 @@ void plan_night(Plan& plan, double sun_rad) {
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables", "sun sky",   "moon sky", "night sky", "clouds",   "near clouds",   "dome",      "waves",
-        "milky way",  "stars",     "corona",   "sun disc",  "moon disc", "precipitation", "sun glare", "moon glare"};
+        "air tables", "sun sky",    "moon sky",      "night sky", "clouds",    "near clouds",
+        "dome",       "waves",      "milky way",     "stars",     "corona",    "sun disc",
+        "moon disc",  "wet things", "precipitation", "sun glare", "moon glare"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -231,6 +233,8 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kSunDisc, plan_disc(scene.sun.enabled, sun_rad, sun_radius_rad, sets_at_rad));
     put(plan, Pass::kMoonDisc,
         plan_disc(scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad, sets_at_rad));
+    const bool wet = scene.ground.kind == Ground::Kind::kLand && scene.ground.wet > 0.0;
+    put(plan, Pass::kWetThings, {wet, wet ? "another renderer's land is wet" : "the land is dry"});
     put(plan, Pass::kPrecipitation, plan_precipitation(scene));
     for (const Pass pass : {Pass::kSunGlare, Pass::kMoonGlare})
         put(plan, pass, {false, "not decided yet"});
@@ -250,9 +254,10 @@ void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bo
     const auto layers = scene.weather.all_clouds();
     const bool any = std::any_of(layers.begin(), layers.end(),
                                  [](const CloudLayer& layer) { return layer.coverage > 0.0; });
-    put(plan, Pass::kClouds, any ? Verdict{true, "clouds stand in the sky"} : Verdict{false, "no layer has any"});
+    put(plan, Pass::kClouds,
+        any ? Verdict{true, "clouds stand in the sky"} : Verdict{false, "no layer has any"});
     put(plan, Pass::kNearClouds,
-        !any          ? Verdict{false, "no layer has any"}
+        !any         ? Verdict{false, "no layer has any"}
         : near_shown ? Verdict{true, "the eye is in a layer or soon may be"}
                      : Verdict{false, "no layer is near the eye's height"});
     plan.passes[static_cast<std::size_t>(Pass::kClouds)].resolution = {2 * map_size, map_size};

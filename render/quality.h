@@ -8,24 +8,25 @@
 namespace skyig::render {
 
 enum class Pass {
-    kAirTables,  ///< optical columns and multiple scattering of a new air
-    kSunSky,     ///< direction table of sunlit air
-    kMoonSky,    ///< direction table of moonlit air
-    kNightSky,   ///< direction table of airglow, zodiacal light, even starlight, towns
+    kAirTables,   ///< optical columns and multiple scattering of a new air
+    kSunSky,      ///< direction table of sunlit air
+    kMoonSky,     ///< direction table of moonlit air
+    kNightSky,    ///< direction table of airglow, zodiacal light, even starlight, towns
     kClouds,      ///< map of far clouds for all channels
     kNearClouds,  ///< map of clouds round the eye
-    kDome,       ///< smooth light of all directions, toned at the vertices
-    kWaves,      ///< waves of the sea, where pixels resolve them
-    kMilkyWay,   ///< what the Milky Way adds to even starlight
+    kDome,        ///< smooth light of all directions, toned at the vertices
+    kWaves,       ///< waves of the sea, where pixels resolve them
+    kMilkyWay,    ///< what the Milky Way adds to even starlight
     kStars,
     kCorona,  ///< what is left of the Sun in a total eclipse
     kSunDisc,
     kMoonDisc,
+    kWetThings,      ///< the sky in the film on things of another renderer
     kPrecipitation,  ///< streaks of what falls near the eye
     kSunGlare,       ///< the veil round the disc in the eye
     kMoonGlare,
 };
-inline constexpr std::size_t kPassCount = 16;
+inline constexpr std::size_t kPassCount = 17;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 

@@ -20,6 +20,7 @@
 #include "render/sea_pass.h"
 #include "render/sky_frame.h"
 #include "render/star_pass.h"
+#include "render/wet_pass.h"
 
 namespace skyig::render {
 
@@ -81,6 +82,7 @@ struct Renderer::Impl {
     }
     void draw_sky(std::size_t channel);
     void draw_discs(std::size_t channel);
+    void draw_wet(std::size_t channel, const DeferredInput& input);
 
     std::vector<Channel> channels;
     DisplaySettings display;
@@ -105,6 +107,7 @@ struct Renderer::Impl {
     GlarePass sun_glare;
     GlarePass moon_glare;
     std::unique_ptr<DeferredPass> deferred;  // once a scene is drawn
+    std::unique_ptr<WetPass> wet;            // once a wet one is
 
     // The frame in hand.
     SkyFrame frame;
@@ -234,6 +237,7 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
         m.precipitation.prepare(scene, m.frame.light(), m.pixel_rad);
     m.prepare_discs(0);
     if (m.deferred) m.refresh_deferred();
+    if (m.wet && m.frame.plan().needs(Pass::kWetThings)) m.wet->prepare(scene, m.frame.light());
     m.report.plan = m.frame.plan();
     m.report.adaptation_cd_m2 = m.frame.adaptation_cd_m2();
     m.report.gl_errors = m.log.errors();
@@ -273,6 +277,14 @@ void Renderer::Impl::draw_discs(std::size_t channel) {
     if (report.plan.needs(Pass::kMoonDisc)) moon_disc.draw(clip);
 }
 
+void Renderer::Impl::draw_wet(std::size_t channel, const DeferredInput& input) {
+    if (!wet) {
+        wet = std::make_unique<WetPass>();
+        wet->prepare(scene, frame.light());
+    }
+    wet->draw(channels[channel], scene.views[channel], tone32(channel), input);
+}
+
 void Renderer::draw(std::size_t channel) {
     Impl& m = *impl_;
     if (!m.shows(channel)) return;
@@ -303,8 +315,9 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
     m.draw_discs(channel);
     gl::set_blend(gl::Blend::kReplace);
     m.deferred->draw(m.scene.views[channel], input, m.tone32(channel));
+    gl::set_blend(gl::Blend::kCoverage);
+    if (m.report.plan.needs(Pass::kWetThings)) m.draw_wet(channel, input);
     if (m.report.plan.needs(Pass::kPrecipitation)) {
-        gl::set_blend(gl::Blend::kCoverage);
         m.precipitation.draw_before(m.scene.views[channel], m.tone32(channel), input);
     }
     // Glare is in the eye: before things too.

@@ -167,6 +167,7 @@ render::Scene SceneBuilder::build(const world::World& world, std::uint64_t frame
     weather_.build(world, scene);
     const world::RegionsAt regions = regions_at(world, scene.eye);
     scene.ground = ground_of(ground_, world, regions);
+    scene.ground.wet = weather_.wet();
     scene.sea = sea_of(world, regions);
     if (sky_.model == render::SkyModel::kWindlight && sky_.windlight.places_sun)
         scene.sun.direction_enu = render::placed_sun_enu(sky_.windlight);

@@ -57,14 +57,17 @@ void CloudMap::stop() noexcept {
     ++revision_;
 }
 
-void CloudMap::resize(int size) {
+void CloudMap::resize(int size, std::size_t probes) {
     stop();
     geometry_ = MapGeometry(size);
     cones_.clear();
-    for (int tile = 0; tile < geometry_.tile_count(); ++tile)
+    corners_.clear();
+    for (int tile = 0; tile < geometry_.tile_count(); ++tile) {
         cones_.push_back(geometry_.cone(tile));
+        corners_.push_back(geometry_.corners(tile));
+    }
     for (Snapshot& snapshot : snapshots_)
-        snapshot.resize(geometry_);
+        snapshot.resize(geometry_, probes);
     for (auto* each : {&tiles_, &seen_})
         each->reserve(cones_.size());
 }
@@ -129,7 +132,8 @@ void CloudMap::begin(CloudMaker& maker, const MapFrame& frame, double frames_ahe
 void CloudMap::list_tiles(std::span<const ChannelView> views, double margin_rad, std::vector<int>& tiles) {
     tiles.clear();
     for (int tile = 0; tile < geometry_.tile_count(); ++tile) {
-        if (sees(views, cone(tile), margin_rad)) tiles.push_back(tile);
+        if (sees(views, cone(tile), margin_rad) && (margin_rad > 0.0 || sees(views, corners_[static_cast<std::size_t>(tile)])))
+            tiles.push_back(tile);
     }
 }
 
@@ -216,9 +220,7 @@ void CloudMap::tell_parts(const MapFrame& frame) noexcept {
         const glm::dvec2 drifted_m = drift_of(frame.moment.scene.weather) - frozen.drift_m;
         const glm::dvec3 offset_m =
             eye_offset_m(frozen.eye, frame.moment.eye) - glm::dvec3{drifted_m.x, drifted_m.y, 0.0};
-        const Part part{&snapshots_[index], weight, glm::vec3{offset_m}, frozen.range.from_m > 0.0F};
-        if (parts_[part_count_].offset_m != part.offset_m) ++revision_;
-        parts_[part_count_++] = part;
+        parts_[part_count_++] = {&snapshots_[index], weight, glm::vec3{offset_m}, frozen.range.from_m > 0.0F};
     };
     const auto share = static_cast<float>(blend_) / static_cast<float>(kBlendFrames);
     const float smooth = share * share * (3.0F - 2.0F * share);
@@ -229,7 +231,7 @@ void CloudMap::tell_parts(const MapFrame& frame) noexcept {
 void CloudMap::update(CloudMaker& maker, const MapFrame& frame, int size, int tiles_a_frame) {
     rays_ = near_rays_ = 0;
     ++frames_since_begin_;
-    if (cones_.empty() || size != geometry_.size()) resize(size);
+    if (cones_.empty() || size != geometry_.size()) resize(size, frame.probes.size());
     note_motion(frame);
     wanted_near_ = near_wanted(frame);
     list_tiles(frame.views, 0.0, seen_);

@@ -64,7 +64,7 @@ class CloudMap {
     /// One or two, whose weights sum to 1.
     [[nodiscard]] std::span<const Part> parts() const noexcept { return {parts_.data(), part_count_}; }
     [[nodiscard]] const NearMap* near_map() const noexcept { return near_shown_ ? &near_ : nullptr; }
-    /// Rises whenever anything that is seen has changed.
+    /// Rises whenever what is seen has changed by anything but the eye's motion, which Part::offset_m tells.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
     /// Tiles that a view sees: all of them are known.
@@ -92,7 +92,7 @@ class CloudMap {
     [[nodiscard]] int near_rays() const noexcept { return near_rays_; }
 
   private:
-    void resize(int size);
+    void resize(int size, std::size_t probes);
     void note_motion(const MapFrame& frame) noexcept;
     [[nodiscard]] bool stands_still(const MapFrame& frame) const noexcept;
     [[nodiscard]] Frozen frozen_at(const MapFrame& frame, const Eye& eye) const noexcept;
@@ -107,6 +107,7 @@ class CloudMap {
 
     MapGeometry geometry_;
     std::vector<Cone> cones_;
+    std::vector<Corners> corners_;
     std::array<Snapshot, 3> snapshots_;
     std::array<const CloudSource*, 3> sources_{};
     std::size_t old_ = 0;

@@ -40,6 +40,17 @@ Cone MapGeometry::cone(int tile) const noexcept {
     return cone;
 }
 
+Corners MapGeometry::corners(int tile) const noexcept {
+    const Texel at = corner(tile);
+    Corners corners;
+    for (int i = 0; i < 4; ++i) {
+        const double column = at.column + (i % 2 == 0 ? -1.0 : kTile + 0.0);
+        const double row = at.row + (i / 2 == 0 ? -1.0 : kTile + 0.0);
+        corners[static_cast<std::size_t>(i)] = glm::normalize(glm::dvec3{direction(column, row, at.lower)});
+    }
+    return corners;
+}
+
 int map_size_for(double pixel_rad, std::span<const ChannelView> views) noexcept {
     double seen_sr = 0.0;
     for (const ChannelView& view : views) {
@@ -60,6 +71,15 @@ int map_size_for(double pixel_rad, std::span<const ChannelView> views) noexcept 
     return size;
 }
 
+namespace {
+
+// Normals of a frustum's sides, into it.
+std::array<glm::dvec3, 4> sides_of(const ImagePlane& p) noexcept {
+    return {{{1.0, 0.0, p.left}, {-1.0, 0.0, -p.right}, {0.0, 1.0, p.bottom}, {0.0, -1.0, -p.top}}};
+}
+
+}  // namespace
+
 bool sees(const ChannelView& view, const Cone& cone, double margin_rad) noexcept {
     if (!has_area(view.frustum)) return false;
     const ImagePlane p = image_plane(view.frustum);
@@ -67,9 +87,7 @@ bool sees(const ChannelView& view, const Cone& cone, double margin_rad) noexcept
     const double angle_rad = std::atan2(cone.sine, cone.cosine) + margin_rad;
     if (angle_rad >= 0.5 * std::numbers::pi) return true;
     const double reach = std::sin(angle_rad);
-    // Normals of the frustum's sides, into it.
-    const std::array<glm::dvec3, 4> sides{
-        {{1.0, 0.0, p.left}, {-1.0, 0.0, -p.right}, {0.0, 1.0, p.bottom}, {0.0, -1.0, -p.top}}};
+    const auto sides = sides_of(p);
     return std::all_of(sides.begin(), sides.end(), [&](const glm::dvec3& side) {
         return glm::dot(axis, side) > -reach * glm::length(side);
     });
@@ -78,6 +96,21 @@ bool sees(const ChannelView& view, const Cone& cone, double margin_rad) noexcept
 bool sees(std::span<const ChannelView> views, const Cone& cone, double margin_rad) noexcept {
     return std::any_of(views.begin(), views.end(),
                        [&](const ChannelView& view) { return sees(view, cone, margin_rad); });
+}
+
+bool sees(std::span<const ChannelView> views, const Corners& corners) noexcept {
+    // Sides between corners bend outwards by less than this.
+    constexpr double kBulge = 0.002;
+    return std::any_of(views.begin(), views.end(), [&](const ChannelView& view) {
+        if (!has_area(view.frustum)) return false;
+        const auto sides = sides_of(image_plane(view.frustum));
+        return std::all_of(sides.begin(), sides.end(), [&](const glm::dvec3& side) {
+            const glm::dvec3 side_enu = glm::transpose(view.view_from_enu) * side;
+            return std::any_of(corners.begin(), corners.end(), [&](const glm::dvec3& corner) {
+                return glm::dot(corner, side_enu) > -kBulge * glm::length(side);
+            });
+        });
+    });
 }
 
 }  // namespace skyig::render::cloud

@@ -2,6 +2,7 @@
 // where both hold the same directions. Cut into tiles.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <span>
@@ -23,6 +24,9 @@ struct Cone {
     double cosine = 1.0;
     double sine = 0.0;
 };
+
+/// Of a tile and what is interpolated around it, unit vectors.
+using Corners = std::array<glm::dvec3, 4>;
 
 class MapGeometry {
   public:
@@ -53,6 +57,7 @@ class MapGeometry {
     [[nodiscard]] glm::vec3 direction(double column, double row, bool lower) const noexcept;
     /// Holds all directions between a tile's texels and their neighbours.
     [[nodiscard]] Cone cone(int tile) const noexcept;
+    [[nodiscard]] Corners corners(int tile) const noexcept;
     /// Angle between neighbouring texels at the middle of a face of the octahedron, where they stand widest.
     [[nodiscard]] double worst_texel_rad() const noexcept { return 3.22 / size_; }
 
@@ -70,5 +75,7 @@ inline constexpr double kMostSeenTexels = 650e3;
 /// Whether a view sees some of a cone. \param margin_rad  added to the cone
 [[nodiscard]] bool sees(const ChannelView& view, const Cone& cone, double margin_rad) noexcept;
 [[nodiscard]] bool sees(std::span<const ChannelView> views, const Cone& cone, double margin_rad) noexcept;
+/// Whether a view may see some of what lies between corners: closer than by their cone.
+[[nodiscard]] bool sees(std::span<const ChannelView> views, const Corners& corners) noexcept;
 
 }  // namespace skyig::render::cloud

@@ -4,7 +4,7 @@ namespace skyig::render::cloud {
 
 NearMap::NearMap() {
     const MapGeometry geometry(kSize);
-    map_.resize(geometry);
+    map_.resize(geometry, 0);
     for (int tile = 0; tile < geometry.tile_count(); ++tile)
         cones_.push_back(geometry.cone(tile));
 }

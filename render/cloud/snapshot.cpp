@@ -26,7 +26,8 @@ glm::dvec3 eye_offset_m(const Eye& from, const Eye& to) noexcept {
             glm::radians(to.latitude_deg - from.latitude_deg) * radius_m, to.height_m - from.height_m};
 }
 
-void Snapshot::resize(const MapGeometry& geometry) {
+void Snapshot::resize(const MapGeometry& geometry, std::size_t probes) {
+    probes_.reserve(probes);
     geometry_ = geometry;
     light_.assign(geometry.texel_count(), kClear);
     reach_m_.assign(geometry.texel_count(), 0.0F);
@@ -163,6 +164,19 @@ void Snapshot::lay_distances() noexcept {
     constexpr int kReach = 3;
     for (int i = 0; i < kReach; ++i)
         spread();
+}
+
+float Snapshot::nearest_inverse(int tile) const noexcept {
+    const MapGeometry::Texel corner = geometry_.corner(tile);
+    float most = 0.0F;
+    for (int row = 0; row <= kTile / kNodeStep; ++row) {
+        for (int column = 0; column <= kTile / kNodeStep; ++column) {
+            most = std::max(most, inverse_distance(corner.column / kNodeStep + column,
+                                                   corner.row / kNodeStep + row, corner.lower));
+        }
+    }
+    // Lengths of directions whose components' sizes sum to 1 are 0.577 at least.
+    return most * 1.7320508F;
 }
 
 float Snapshot::inverse_distance(const glm::vec3& direction) const noexcept {

@@ -41,15 +41,15 @@ class Snapshot {
     /// Texels from one node of the distances to the next.
     static constexpr int kNodeStep = 8;
 
-    /// Allocates; all is clear and unknown.
-    void resize(const MapGeometry& geometry);
+    /// Allocates; all is clear and unknown. \param probes  as many as march_probes() will get
+    void resize(const MapGeometry& geometry, std::size_t probes);
     /// Another moment: all tiles become unknown.
     void begin(const Frozen& frozen) noexcept;
 
     /// Fills a tile. One that a few wide rays find empty is clear. Any number of tiles at a time, each by one
     /// thread.
     void march(const CloudSource& source, int tile) noexcept;
-    /// Follows some directions, near clouds too, for the eye's adaptation; as many as were asked for at first.
+    /// Follows some directions, near clouds too, for the eye's adaptation.
     void march_probes(const CloudSource& source, std::span<const glm::vec3> seen_enu, float ray_rad);
     /// Works out how far the clouds are, smoothly over directions; to be called when tiles are done.
     void lay_distances() noexcept;
@@ -90,7 +90,9 @@ class Snapshot {
     [[nodiscard]] float inverse_distance(int column, int row, bool lower) const noexcept {
         return inverse_m_[node_index(column, row, lower)];
     }
-    /// The same between nodes. \param direction  components whose sizes sum to 1
+    /// 1 / m of the nearest of a tile's nodes.
+    [[nodiscard]] float nearest_inverse(int tile) const noexcept;
+    /// inverse_distance() between nodes. \param direction  components whose sizes sum to 1
     [[nodiscard]] float inverse_distance(const glm::vec3& direction) const noexcept;
 
   private:

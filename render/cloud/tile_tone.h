@@ -22,12 +22,11 @@ struct ToneLaw {
 
 /// Smooth over directions. Linear Rec.709.
 enum ToneChannel {
-    kSky = 0,           ///< luminance of the sky behind the clouds
-    kGround = 3,        ///< of the ground behind them
-    kExtinction = 6,    ///< of the air between, per metre
-    kConvergence = 9,   ///< of endless air like that between
-    kNearLight = 12,    ///< of near clouds
-    kToneChannels = 15
+    kBehind = 0,       ///< luminance of what is behind the clouds
+    kExtinction = 3,   ///< of the air between, per metre
+    kConvergence = 6,  ///< of endless air like that between
+    kNearLight = 9,    ///< of near clouds
+    kToneChannels = 12
 };
 
 struct ToneRow {
@@ -35,15 +34,15 @@ struct ToneRow {
     float opacity[kToneRow];    ///< of them; both of far clouds, dimmed by near ones
     float passed[kToneRow];     ///< of all light behind, by all clouds
     float reach_m[kToneRow];    ///< distance times opacity
-    float above[kToneRow];      ///< 1 before the sky, 0 before the ground
     float smooth[kToneChannels][kToneRow];
 };
 
 struct ToneKernel {
     const char* name;
+    /// \param code  kBehind as it is shown, kToneRow times red, then green and blue; null: it is worked out
     /// \param out  kToneRow times red, green, blue and factor: a display code c behind becomes c * factor +
     /// colour
-    void (*tone)(const ToneLaw& law, const ToneRow& row, float* out);
+    void (*tone)(const ToneLaw& law, const ToneRow& row, const float* code, float* out);
     /// shown() of linear Rec.709, in place.
     void (*show)(const ToneLaw& law, float* red, float* green, float* blue);
 };

@@ -50,7 +50,9 @@ void lay_land(const Ground& ground, AirModel& model) noexcept {
     const double told = ground.albedo && std::isfinite(*ground.albedo) ? *ground.albedo : bare;
     const double scale = std::clamp(told, 0.0, 1.0) / bare;
     const double snow = std::isfinite(ground.snow) ? std::clamp(ground.snow, 0.0, 1.0) : 0.0;
-    const double wet = std::isfinite(ground.wet) ? std::clamp(ground.wet, 0.0, 1.0) : 0.0;
+    // In steps: land that dries asks for new air sixteen times, not in every frame.
+    const double told_wet = std::isfinite(ground.wet) ? std::clamp(ground.wet, 0.0, 1.0) : 0.0;
+    const double wet = std::round(16.0 * told_wet) / 16.0;
     model.ground_albedo = spectrum_of([&](double nm) {
         const double dry = std::min(scale * bare_land_albedo(nm), 1.0);
         const double land = dry + wet * (wet_albedo(dry) - dry);

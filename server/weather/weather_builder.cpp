@@ -107,7 +107,9 @@ void WeatherBuilder::build(const world::World& world, render::Scene& scene) {
         layer.drift.set_wind(wind_of(layer.told, world.air()), scene.time_s);
     left_out_ = gatherer_.left_out();
     settle_air(scene, at_once);
+    rain_mm_h_ = 0.0;
     show(plane, scene, weather);
+    soak(scene.time_s, at_once);
     weather.wind_m_s = wind_at_eye(world, plane, scene.eye);
     move_eye(scene.eye, scene.time_s, at_once, weather);
     time_s_ = scene.time_s;
@@ -251,8 +253,9 @@ void WeatherBuilder::show_falling(const ShownLayer& layer, const render::Scene& 
             weather.obscurants[weather.obscurant_count++] = made;
         }
     }
-    const double rate_mm_h = layer.state.rate_mm_h * layer.uncovered * weight_at_eye(area) *
-                             weight_at_height(layer.state, scene.eye.height_m);
+    const double below_eye_mm_h = layer.state.rate_mm_h * layer.uncovered * weight_at_eye(area);
+    if (!snow && kind != Precipitation::Kind::kHail) rain_mm_h_ += below_eye_mm_h;
+    const double rate_mm_h = below_eye_mm_h * weight_at_height(layer.state, scene.eye.height_m);
     if (rate_mm_h <= 0.0) return;
     // One of each kind: there is room for all.
     const auto all = std::span(weather.precipitations).first(weather.precipitation_count);
@@ -264,6 +267,24 @@ void WeatherBuilder::show_falling(const ShownLayer& layer, const render::Scene& 
         return;
     }
     weather.precipitations[weather.precipitation_count++] = {kind, rate_mm_h, made.top_m};
+}
+
+void WeatherBuilder::soak(double time_s, bool at_once) noexcept {
+    // This much rain keeps all of the land wet; a millimetre makes it so.
+    constexpr double kKeepsWet_mm_h = 1.0;
+    constexpr double kSoaks_mm = 1.0;
+    constexpr double kDries_s = 1800.0;
+    const double kept = std::min(rain_mm_h_ / kKeepsWet_mm_h, 1.0);
+    if (at_once) {
+        wet_ = kept;
+        return;
+    }
+    const double step_s = time_s - *time_s_;
+    if (kept > wet_) {
+        wet_ = std::min(kept, wet_ + rain_mm_h_ / 3600.0 * step_s / kSoaks_mm);
+    } else {
+        wet_ = kept + (wet_ - kept) * std::exp(-step_s / kDries_s);
+    }
 }
 
 glm::dvec2 WeatherBuilder::wind_of(const ToldLayer& layer, const world::AirState& air) const noexcept {

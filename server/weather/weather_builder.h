@@ -42,6 +42,9 @@ class WeatherBuilder {
     /// Of the last frame: layers for which the scene has no place, the furthest.
     [[nodiscard]] std::size_t left_out() const noexcept { return left_out_; }
 
+    /// How wet rain has made the land below the eye, 0..1: it soaks in minutes and dries in half an hour.
+    [[nodiscard]] double wet() const noexcept { return wet_; }
+
   private:
     [[nodiscard]] bool jumped(const world::World& world, double time_s) noexcept;
     void settle_air(render::Scene& scene, bool at_once) noexcept;
@@ -53,6 +56,7 @@ class WeatherBuilder {
                         const std::optional<render::WeatherArea>& area, render::Weather& weather) noexcept;
     void show_falling(const ShownLayer& layer, const render::Scene& scene,
                       const std::optional<render::WeatherArea>& area, render::Weather& weather) noexcept;
+    void soak(double time_s, bool at_once) noexcept;
     /// Of the layer, or by height.
     [[nodiscard]] glm::dvec2 wind_of(const ToldLayer& layer, const world::AirState& air) const noexcept;
     [[nodiscard]] glm::dvec3 wind_at_eye(const world::World& world, const EyePlane& plane,
@@ -70,6 +74,9 @@ class WeatherBuilder {
     glm::dvec3 eye_velocity_ecef_m_s_{0.0};
     bool eye_moves_ = false;
     std::size_t left_out_ = 0;
+    /// What rains on the ground below the eye in this frame.
+    double rain_mm_h_ = 0.0;
+    double wet_ = 0.0;
     /// Of clouds, by the keyframes.
     double cloud_cover_ = 1.0;
 };

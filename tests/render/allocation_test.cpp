@@ -8,6 +8,7 @@
 #include "render/gl/texture.h"
 #include "render/light_tables.h"
 #include "render/sky_frame.h"
+#include "tests/render/fake_clouds.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/support/allocation_count.h"
 
@@ -28,6 +29,7 @@ void add_storm(Scene& scene) {
     scene.weather.cloud_count = 1;
     scene.weather.lightnings[0] = {0, 60.0, 5};
     scene.weather.lightning_count = 1;
+    scene.ground.wet = 0.5;
 }
 
 // A world that goes on: the Sun climbs, the aircraft too, so that tables are rebuilt all the time.
@@ -138,6 +140,29 @@ TEST_F(Allocation, NorDoFramesWithAnotherRenderersPicture) {
         flight.frames(kWarmUpFrames);
         EXPECT_EQ(flight.frames(100), 0) << name;
     }
+}
+
+TEST(FrameAllocation, CloudsAreFollowedAndTonedWithoutAny) {
+    const FakeSheet sheet{};
+    Scene scene = make_scene(48.0, 185.0, -10.0, 40.0, 2500.0);
+    add_view(scene, symmetric_frustum(30.0, 640, 512), view_from_enu(150.0, 10.0, 0.0));
+    add_layer(scene, sheet);
+    Quality quality;
+    quality.cloud_map_size = 512;
+    SkyFrame frame({}, quality);
+    frame.draw_clouds(fake_clouds(sheet));
+    const auto fly = [&](int frames) {
+        for (int i = 0; i < frames; ++i) {
+            scene.time_s += 1.0 / 30.0;
+            scene.eye.latitude_deg += 6e-5;
+            frame.prepare(scene, 1.8e-3);
+        }
+    };
+    fly(5);
+    ASSERT_TRUE(frame.plan().needs(Pass::kNearClouds));
+    const auto before = skyig::tests::allocation_count();
+    fly(60);
+    EXPECT_EQ(skyig::tests::allocation_count() - before, 0U);
 }
 
 // Without GL: what an evening brings in, and another Milky Way by night.

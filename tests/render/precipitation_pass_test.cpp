@@ -7,6 +7,7 @@
 
 #include "render/gl/texture.h"
 #include "render/precipitation/fall.h"
+#include "render/sky_frame.h"
 #include "tests/render/gl_fixture.h"
 
 namespace skyig::render {
@@ -247,6 +248,119 @@ TEST_F(PrecipitationPicture, FallsBehindWhatIsNearerAndBeforeWhatIsFarther) {
     EXPECT_EQ(near, 0);
     EXPECT_GT(amid, 50);
     EXPECT_GT(far, 2 * amid);
+}
+
+// A level floor 3 m below the eye up to 40 m away, then a wall; black, so that only air and film shine.
+struct WetYard {
+    static constexpr int kPixels_x = 160;
+    static constexpr int kPixels_y = 128;
+    static constexpr double kFar_m = 100.0;
+
+    explicit WetYard(const ChannelView& view) {
+        std::vector<float> depths;
+        for (int row = kPixels_y - 1; row >= 0; --row) {
+            for (int x = 0; x < kPixels_x; ++x) {
+                const glm::dvec3 ray = direction_at(view, x, row);
+                const double floor_m = ray.z < 0.0 ? 3.0 / -ray.z : 1e9;
+                const double distance_m = std::min(floor_m, 40.0 / ray.y);
+                const double along = -(view.view_from_enu * ray).z;
+                depths.push_back(static_cast<float>(distance_m * along / kFar_m));
+            }
+        }
+        colour.update(std::vector<float>(std::size_t{kPixels_x} * kPixels_y * 4, 0.0F));
+        depth.update(depths);
+    }
+    static glm::dvec3 direction_at(const ChannelView& view, int x, int row) {
+        return glm::transpose(view.view_from_enu) *
+               view_direction({"only", kPixels_x, kPixels_y}, view.frustum, x + 0.5, kPixels_y - row - 0.5);
+    }
+    [[nodiscard]] std::vector<float> light(Renderer& renderer, const Scene& scene) const {
+        std::vector<float> rgb(std::size_t{kPixels_x} * kPixels_y * 3);
+        renderer.prepare(scene);
+        renderer.draw_scene(0, {colour.name(), depth.name(), kFar_m});
+        renderer.read_luminance(0, rgb);
+        return rgb;
+    }
+    gl::Texture colour{gl::TexelFormat::kRgba32F, kPixels_x, kPixels_y};
+    gl::Texture depth{gl::TexelFormat::kR32F, kPixels_x, kPixels_y};
+};
+
+TEST_F(PrecipitationPicture, WetFloorMirrorsTheSkyAndAWallDoesNot) {
+    Scene scene = make_scene(35.0, 180.0, -30.0, 40.0, 3.0);
+    add_view(scene, symmetric_frustum(30.0, WetYard::kPixels_x, WetYard::kPixels_y),
+             view_from_enu(0.0, -10.0, 0.0));
+    const WetYard yard(scene.views[0]);
+    Renderer renderer({{"only", WetYard::kPixels_x, WetYard::kPixels_y}}, without_glare(), {},
+                      Target::kLuminance);
+    const std::vector<float> dry = yard.light(renderer, scene);
+    scene.ground.wet = 1.0;
+    // The same air still, then one that has air over wet land from the first.
+    const std::vector<float> just_wet = yard.light(renderer, scene);
+    Renderer another({{"only", WetYard::kPixels_x, WetYard::kPixels_y}}, without_glare(), {},
+                     Target::kLuminance);
+    const std::vector<float> wet = yard.light(another, scene);
+    SkyFrame frame({}, {}, {}, Target::kLuminance);
+    frame.prepare(scene, 1e-3);
+    double worst = 0.0;
+    double wall = 0.0;
+    for (int row = 2; row + 2 < WetYard::kPixels_y; ++row) {
+        for (int x = 2; x + 2 < WetYard::kPixels_x; ++x) {
+            const glm::dvec3 ray = WetYard::direction_at(scene.views[0], x, row);
+            const std::size_t i =
+                (static_cast<std::size_t>(row) * WetYard::kPixels_x + static_cast<std::size_t>(x)) * 3 + 1;
+            const double before = static_cast<double>(dry[i]);
+            const double added = static_cast<double>(wet[i]) - before;
+            const double added_at_once = static_cast<double>(just_wet[i]) - before;
+            const double floor_m = 3.0 / -ray.z;
+            if (ray.z > 0.0 || floor_m > 42.0 / ray.y) {
+                wall = std::max(wall, std::abs(added_at_once) / std::max(before, 1e-3));
+            } else if (floor_m < 36.0 / ray.y) {
+                const double cosine = std::sqrt(ray.z * ray.z + 0.01);
+                const double share = 0.5 * (0.02 + 0.98 * std::pow(1.0 - cosine, 5.0));
+                const Horizontal at{std::asin(cosine), horizontal_of(ray).azimuth_rad};
+                const double sky = static_cast<double>(
+                    frame.light().smooth_rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kSky).y);
+                worst = std::max(worst, std::abs(added / (share * (sky - before)) - 1.0));
+            }
+        }
+    }
+    std::printf("film against its formula: %.1f %%; wall changed by %.1e\n", 100.0 * worst, wall);
+    EXPECT_LT(worst, 0.05);
+    EXPECT_LT(wall, 1e-6);
+}
+
+TEST_F(PrecipitationPicture, DropsMakeRingsInTheWetFloor) {
+    Scene scene = make_scene(35.0, 180.0, -30.0, 40.0, 3.0);
+    add_view(scene, symmetric_frustum(30.0, WetYard::kPixels_x, WetYard::kPixels_y),
+             view_from_enu(0.0, -35.0, 0.0));
+    scene.ground.wet = 1.0;
+    const WetYard yard(scene.views[0]);
+    Renderer renderer({{"only", WetYard::kPixels_x, WetYard::kPixels_y}}, without_glare(), {},
+                      Target::kLuminance);
+    const std::vector<float> still = yard.light(renderer, scene);
+    // The rings alone: the eye is above the streaks' top when they are compared.
+    scene.weather.precipitations[0] = {Precipitation::Kind::kRain, 20.0, 100.0};
+    scene.weather.precipitation_count = 1;
+    std::vector<float> rained;
+    for (int i = 0; i < 60; ++i) {
+        scene.time_s += 1.0 / 30.0;
+        rained = yard.light(renderer, scene);
+    }
+    scene.weather.precipitations[0].top_m = 0.0;
+    const std::vector<float> rings = yard.light(renderer, scene);
+    const std::vector<float> again = yard.light(renderer, scene);
+    EXPECT_EQ(rings, again) << "time stands";
+    double mean = 0.0;
+    double rms = 0.0;
+    for (std::size_t i = 1; i < rings.size(); i += 3) {
+        const double change = static_cast<double>(rings[i]) / static_cast<double>(still[i]) - 1.0;
+        mean += change * 3.0 / static_cast<double>(rings.size());
+        rms += change * change * 3.0 / static_cast<double>(rings.size());
+    }
+    std::printf("rings: mean %.2f %%, rms %.2f %% of the floor's light\n", 100.0 * mean,
+                100.0 * std::sqrt(rms));
+    EXPECT_GT(std::sqrt(rms), 0.003);
+    EXPECT_LT(std::abs(mean), 0.1);
 }
 
 }  // namespace

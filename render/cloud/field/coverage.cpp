@@ -7,8 +7,8 @@
 namespace skyig::render::cloud::field {
 namespace {
 
-constexpr int kHeights = 16;
-constexpr int kColumns = 4096;
+constexpr int kHeights = 32;
+constexpr int kColumns = 3072;
 static_assert(kRays % kHeights == 0);
 
 using Column = std::array<float, kHeights>;
@@ -68,7 +68,7 @@ float lowest_value(const Shape& shape) {
 
 Coverage::Coverage(const Noise& noise) {
     std::vector<float> thresholds(kColumns);
-    for (std::size_t g = 1; g < kGenera; ++g) {
+    for (std::size_t g = 0; g < kGenera; ++g) {
         const auto genus = static_cast<CloudGenus>(g);
         const Shape shape = shape_of(noise, genus, {});
         const std::vector<Column> columns = columns_of(shape, genus_of(genus).usual_thickness_m);

@@ -31,7 +31,7 @@ double extinction_of(const CloudLayer& cloud) {
     return std::clamp(cloud.extinction_per_m > 0.0 ? cloud.extinction_per_m : own, 1e-12, 1e3);
 }
 
-Area area_of(const CloudLayer& cloud) {
+Area area_of(const CloudLayer& cloud, double closing) {
     Area area{};
     area.perimeter_m = -1.0F;
     if (!cloud.area) return area;
@@ -40,16 +40,20 @@ Area area_of(const CloudLayer& cloud) {
             {f32(std::sin(told.axis_rad)), f32(std::cos(told.axis_rad))},
             {f32(told.half_size_m.x), f32(told.half_size_m.y)},
             f32(told.corner_radius_m),
-            f32(std::max(told.perimeter_m, 0.0))};
+            f32(std::max(told.perimeter_m, 0.0)),
+            f32(closing)};
 }
 
-// A storm grows from a heap to an anvil with its severity.
-void grow(const CloudLayer& cloud, Shape& shape) {
-    if (cloud.genus != CloudGenus::kCumulonimbus) return;
-    constexpr std::array<float, 3> kHeap{0.30F, 0.40F, 0.0F};
-    const auto grown = f32(std::clamp(cloud.severity, 0.0, 1.0));
-    for (std::size_t i = 0; i < kHeap.size(); ++i)
-        shape.lift[i] = glm::mix(kHeap[i], shape.lift[i], grown);
+// A storm grows from a tower to an anvil with its severity.
+float grown(const CloudLayer& cloud) {
+    return cloud.genus == CloudGenus::kCumulonimbus ? f32(std::clamp(cloud.severity, 0.0, 1.0)) : 1.0F;
+}
+
+float threshold_of(const Coverage& coverage, const CloudLayer& cloud, double part) {
+    const double depth = extinction_of(cloud) * cloud.thickness_m;
+    const float full = coverage.threshold(cloud.genus, part, depth);
+    const float young = 1.0F - grown(cloud);
+    return young > 0.0F ? glm::mix(full, coverage.threshold(kTower, part, depth), young) : full;
 }
 
 // Coverage moves the sum's mean from where no tile brings it over 0 to where none brings it below.
@@ -76,11 +80,11 @@ Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnch
         layer.shape = shape_of(matrix.noise, *cloud.look, place);
         tell(cloud, layer);
     } else {
-        const double depth = extinction * cloud.thickness_m;
         layer.shape = shape_of(matrix.noise, cloud.genus, place);
-        grow(cloud, layer.shape);
-        layer.threshold = matrix.coverage.threshold(cloud.genus, cloud.coverage, depth);
-        layer.dry = matrix.coverage.threshold(cloud.genus, 0.0, depth) - layer.threshold + 0.5F;
+        for (std::size_t i = 0; i < 3; ++i)
+            layer.shape.lift[i] = glm::mix(genus_of(kTower).lift[i], layer.shape.lift[i], grown(cloud));
+        layer.threshold = threshold_of(matrix.coverage, cloud, cloud.coverage);
+        layer.dry = threshold_of(matrix.coverage, cloud, 0.0) - layer.threshold + 0.5F;
         layer.self_shadow = 1.0F;
     }
     layer.base_m = f32(cloud.base_m);
@@ -90,7 +94,7 @@ Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnch
     layer.bottom_scud = f32(std::clamp(cloud.bottom_scud, 0.0, 1.0));
     layer.top_scud = f32(std::clamp(cloud.top_scud, 0.0, 1.0));
     layer.extinction_per_m = f32(extinction);
-    layer.area = area_of(cloud);
+    layer.area = area_of(cloud, anchor.closing);
     layer.g = genus.ice ? kIceG : kWaterG;
     layer.inside = (genus.ice ? matrix.ice : matrix.water).nodes();
     return layer;
@@ -156,7 +160,7 @@ float left_over(const Sky& sky, const Layer& layer, double mu0, bool above) {
 
 constexpr double kDiffuseMu = 0.6;
 
-void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& base,
+void shine_beams(const Sky& sky, float closing, const CloudLight& light, const CloudLight::At& base,
                  const CloudLight::At& top, Layer& layer) {
     for (std::size_t s = 0; s < CloudLight::kSources; ++s) {
         const Beam& beam = light.beams[s];
@@ -166,6 +170,8 @@ void shine_beams(const Sky& sky, const CloudLight& light, const CloudLight::At& 
         if (!own.lit) continue;
         for (int c = 0; c < 3; ++c)
             own.direction[c] = beam.direction_enu[c];
+        own.along[0] = beam.direction_enu.x + closing * beam.direction_enu.y;
+        own.along[1] = beam.direction_enu.y;
         const double mu0 = std::max(0.05, std::abs(static_cast<double>(beam.direction_enu.z)));
         own.lx = shine_of(base.beam_lx[s], top.beam_lx[s],
                           glm::vec3(left_over(sky, layer, mu0, beam.direction_enu.z >= 0.0F)));
@@ -221,12 +227,12 @@ void colour_layer(const CloudLayer& cloud, Layer& layer) {
     tint(layer.below_cd_m2, colour);
 }
 
-void shine_on(Sky& sky, const CloudLight& light) {
+void shine_on(Sky& sky, float closing, const CloudLight& light) {
     for (std::size_t k = 0; k < sky.count; ++k) {
         Layer& layer = sky.layers[k].layer;
         const CloudLight::At base = light.at(static_cast<double>(layer.base_m));
         const CloudLight::At top = light.at(static_cast<double>(upper(layer)));
-        shine_beams(sky, light, base, top, layer);
+        shine_beams(sky, closing, light, base, top, layer);
         shine_evenly(sky, base, top, sky.layers[k], layer);
         colour_layer(*sky.layers[k].cloud, layer);
     }
@@ -299,7 +305,7 @@ void freeze_field(const Matrix& matrix, const Scene& scene, const CloudLight& li
     for (const CloudLayer& cloud : scene.weather.all_clouds()) {
         if (is_cloud(cloud)) sky.layers[sky.count++] = {&cloud, layer_of(matrix, cloud, anchor)};
     }
-    shine_on(sky, light);
+    shine_on(sky, field.closing, light);
     stack(sky, field);
 }
 

@@ -42,6 +42,7 @@ struct Area {
     float half_m[2];
     float corner_m;
     float perimeter_m;
+    float closing;  // of SeaAnchor: what the field's axes gain on true east
 };
 
 /// Light on a layer: at its base, and what is added up to its top.
@@ -53,6 +54,7 @@ struct Shine {
 struct LayerBeam {
     bool lit;
     float direction[3];  // towards the source
+    float along[2];      // the same on the field's axes
     Shine lx;
 };
 

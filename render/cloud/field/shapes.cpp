@@ -15,8 +15,8 @@ constexpr Turn drawn(int main, int side, int factor) {
     return {main, side, -side * factor, main * factor};
 }
 
-// The tiles' finest features are these parts of them.
-constexpr double kFlatWave = 1.0 / 40.0;
+// The tiles' features that matter are these parts of them.
+constexpr double kFlatWave = 1.0 / 14.0;
 constexpr double kFineWave = 1.0 / 8.0;
 
 constexpr Genus cumulus() {
@@ -50,7 +50,7 @@ constexpr Genus cumulonimbus() {
     g.step_m = 20.0F;
     g.stride_m = 300.0F;
     g.extinction_per_m = 0.06F;
-    g.usual_thickness_m = 8000.0F;
+    g.usual_thickness_m = 11000.0F;
     return g;
 }
 
@@ -143,7 +143,13 @@ constexpr Genus cirrocumulus() {
     return g;
 }
 
-constexpr std::array<Genus, kGenera> kGenus{smooth_sheet(9, 0.05F, 300.0F),
+constexpr Genus tower() {
+    Genus g = cumulonimbus();
+    g.lift = {0.30F, 0.40F, 0.0F};
+    return g;
+}
+
+constexpr std::array<Genus, kGenera> kGenus{tower(),
                                             altocumulus(),
                                             smooth_sheet(5, 0.012F, 1500.0F),
                                             cirrocumulus(),

@@ -58,7 +58,8 @@ struct Genus {
 };
 
 inline constexpr std::size_t kGenera = 11;
-/// By CloudGenus; the first is not used.
+/// In the place that no CloudGenus has: a cumulonimbus before its anvil.
+inline constexpr CloudGenus kTower{};
 [[nodiscard]] const Genus& genus_of(CloudGenus genus) noexcept;
 
 /// What the seed and the age of a layer and the eye's place do to the tiles.

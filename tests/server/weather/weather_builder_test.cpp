@@ -112,6 +112,37 @@ TEST(WeatherBuilder, TwoBuildersOfTheSamePacketsAgreeToTheBit) {
     EXPECT_GT(a.weather().obscurant_count, 4U);
 }
 
+TEST(WeatherBuilder, RainSoaksTheLandInMinutesAndItDriesInHalfAnHour) {
+    WeatherBench bench;
+    bench.frame();
+    cigi::WeatherControl rain = cloud(4, CloudType::kNone, 1500.0F, 100.0F);
+    rain.thickness = 1500.0F;
+    rain.severity = 3;
+    bench.send(wind(5.0F, 270.0F), rain);
+    const auto wet_after = [&](int seconds) {
+        for (int i = 0; i < seconds; ++i)
+            bench.frame(1.0);
+        return bench.scene.ground.wet;
+    };
+    const double soon = wet_after(60);
+    const double soaked = wet_after(900);
+    rain.weather_enable = false;
+    bench.send(rain);
+    bench.settle();
+    const double half_dry = wet_after(1250);
+    std::printf("  wet after a minute %.2f, a quarter of an hour %.2f, 21 min after the rain %.2f\n", soon,
+                soaked, half_dry);
+    EXPECT_GT(soon, 0.05);
+    EXPECT_LT(soon, 0.8);
+    EXPECT_EQ(soaked, 1.0);
+    EXPECT_NEAR(half_dry, 0.5, 0.03);
+    // A clock that is set has had its time.
+    rain.weather_enable = true;
+    bench.send(rain);
+    bench.frame(100.0);
+    EXPECT_EQ(bench.scene.ground.wet, 1.0);
+}
+
 TEST(WeatherBuilder, CostsLittle) {
     WeatherBench bench;
     for (int frame = 0; frame < 100; ++frame) {

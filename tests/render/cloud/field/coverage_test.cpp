@@ -35,26 +35,51 @@ struct Case {
     const char* name;
     double thickness_m;
     double extinction_per_m;
+    double severity = 0.0;
 };
 
 TEST(Coverage, IsWhatIsAskedFor) {
     // Ice is asked for dense enough to hide anything.
-    const std::vector<Case> cases = {
-        {CloudGenus::kCumulus, "Cu", 1000.0, 0.0},      {CloudGenus::kCumulus, "Cu, thick", 2500.0, 0.0},
-        {CloudGenus::kStratocumulus, "Sc", 400.0, 0.0}, {CloudGenus::kStratus, "St", 300.0, 0.0},
-        {CloudGenus::kAltocumulus, "Ac", 350.0, 0.0},   {CloudGenus::kCumulonimbus, "Cb", 8000.0, 0.0},
-        {CloudGenus::kCirrus, "Ci", 1000.0, 0.01}};
+    const std::vector<Case> cases = {{CloudGenus::kCumulus, "Cu", 1000.0, 0.0},
+                                     {CloudGenus::kCumulus, "Cu, thick", 2500.0, 0.0},
+                                     {CloudGenus::kStratocumulus, "Sc", 400.0, 0.0},
+                                     {CloudGenus::kStratus, "St", 300.0, 0.0},
+                                     {CloudGenus::kAltocumulus, "Ac", 350.0, 0.0},
+                                     {CloudGenus::kCumulonimbus, "Cb, young", 8000.0, 0.0},
+                                     {CloudGenus::kCumulonimbus, "Cb, grown", 8000.0, 0.0, 1.0},
+                                     {CloudGenus::kCirrus, "Ci", 1000.0, 0.01}};
     for (const Case& c : cases) {
         double worst = 0.0;
         for (const double asked : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+            // All steps of the two that matter most.
+            if (c.thickness_m != 1000.0 && c.thickness_m != 400.0 && (asked == 0.3 || asked == 0.7)) continue;
             CloudLayer layer = layer_of(c.genus, 1000.0, c.thickness_m, asked);
             layer.extinction_per_m = c.extinction_per_m;
-            const Seen measured = straight_down(layer, 1000);
+            layer.severity = c.severity;
+            const Seen measured = straight_down(layer, 1200);
             std::printf("%-10s asked %.0f %%: hidden %5.1f %%, mean opacity %5.1f %%\n", c.name,
                         100.0 * asked, 100.0 * measured.hidden, 100.0 * measured.opacity);
             worst = std::max(worst, std::abs(measured.hidden - asked));
         }
         EXPECT_LT(worst, 0.03) << c.name;
+    }
+}
+
+TEST(Coverage, KeepsFromFarWhatRaysDoNotResolve) {
+    // From 400 km, rays half a kilometre wide and more, straight down.
+    const std::vector<CloudRay> rays = sphere_of_rays(8, 64, -0.5 * kPi, -0.5 * kPi + 0.3);
+    for (const double asked : {0.2, 0.5, 0.8}) {
+        CloudField field(matrix());
+        field.freeze(scene_of({layer_of(CloudGenus::kCumulus, 1000.0, 1000.0, asked)}, 400e3), plain_light());
+        for (const float ray_rad : {1e-5F, 1.2e-3F, 1e-2F}) {
+            double opacity = 0.0;
+            for (const CloudSample& sample : seen(field, rays, {}, ray_rad))
+                opacity +=
+                    static_cast<double>(1.0F - sample.transmittance) / static_cast<double>(rays.size());
+            std::printf("asked %.0f %%, rays of %.0e rad from 400 km: mean opacity %.1f %%\n", 100.0 * asked,
+                        static_cast<double>(ray_rad), 100.0 * opacity);
+            EXPECT_NEAR(opacity, asked, 0.12);
+        }
     }
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "render/cloud/slab_light.h"
+#include "tests/support/allocation_count.h"
 
 namespace skyig::render::cloud::field {
 namespace {
@@ -16,6 +17,14 @@ double mean_step_255(const std::vector<CloudSample>& a, const std::vector<CloudS
     for (std::size_t i = 0; i < a.size(); ++i)
         sum += step_255(a[i], b[i]);
     return sum / static_cast<double>(a.size());
+}
+
+CloudLayer sheet_of(double coverage) {
+    CloudLayer layer = layer_of(CloudGenus::kStratocumulus, 1000.0, 300.0, coverage);
+    layer.model = CloudModel::kLayer;
+    layer.bottom_band_m = 30.0;
+    layer.top_band_m = 30.0;
+    return layer;
 }
 
 TEST(CloudField, BaseIsWhereItIsSet) {
@@ -82,6 +91,33 @@ TEST(CloudField, AnAreaEndsItsClouds) {
     EXPECT_EQ(west, CloudSample{});
 }
 
+TEST(CloudField, AnAreaLiesWhereItIsTold) {
+    // Due north, seen as much to the left as to the right, though the field's axes are no meridians.
+    CloudLayer layer = layer_of(CloudGenus::kStratus, 1000.0, 1000.0, 1.0);
+    layer.area = WeatherArea{{0.0, 30000.0}, 0.3, {0.0, 0.0}, 5000.0, 1000.0};
+    CloudField field(matrix());
+    field.freeze(scene_of({layer}, 1500.0), plain_light());
+    const CloudSample left = seen(field, {ray_at(0.0, -0.14)})[0];
+    const CloudSample right = seen(field, {ray_at(0.0, 0.14)})[0];
+    std::printf("an area's rim: %.0f m to the left, %.0f m to the right\n",
+                static_cast<double>(left.distance_m), static_cast<double>(right.distance_m));
+    EXPECT_GT(left.distance_m, 20000.0F);
+    // Its edge is as ragged as the cloud.
+    EXPECT_NEAR(left.distance_m, right.distance_m, 500.0F);
+}
+
+TEST(CloudField, AllocatesNothing) {
+    CloudField field(matrix());
+    const Scene scene = scene_of({layer_of(CloudGenus::kCumulus, 1000.0, 1000.0, 0.5), sheet_of(0.5)}, 2.0);
+    const CloudLight light = plain_light();
+    const std::vector<CloudRay> rays = sphere_of_rays(4, 33);
+    std::vector<CloudSample> samples(rays.size());
+    const std::uint64_t before = tests::allocation_count_of_this_thread();
+    field.freeze(scene, light);
+    field.march(rays, {}, kRay_rad, samples);
+    EXPECT_EQ(tests::allocation_count_of_this_thread(), before);
+}
+
 TEST(CloudField, OverlappingLayersAddTheirExtinction) {
     const CloudLayer one = slab_of(1000.0, 400.0, 1.0);
     const CloudLayer two = slab_of(1200.0, 400.0, 0.5);
@@ -114,14 +150,6 @@ TEST(CloudField, LightInLanesIsTheSlabModels) {
     }
     std::printf("largest relative difference of a point's light %.2e\n", largest);
     EXPECT_LT(largest, 2e-2);
-}
-
-CloudLayer sheet_of(double coverage) {
-    CloudLayer layer = layer_of(CloudGenus::kStratocumulus, 1000.0, 300.0, coverage);
-    layer.model = CloudModel::kLayer;
-    layer.bottom_band_m = 30.0;
-    layer.top_band_m = 30.0;
-    return layer;
 }
 
 TEST(CloudField, CrossingASheetDoesNotPop) {
