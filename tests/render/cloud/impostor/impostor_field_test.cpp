@@ -127,7 +127,7 @@ TEST(ImpostorField, LooksLikeTheParticlesThatItStandsFor) {
     Moment moment = fair_weather();
     sky.show(moment);
     const double fresh = rms_codes(sky, moment.eye, 4000);
-    // Two minutes past the clouds at 100 m/s, at 30 Hz, while the light turns.
+    // Half a minute past the clouds at 100 m/s, at 30 Hz.
     double worst = 0.0;
     for (int frame = 1; frame <= 900; ++frame) {
         moment.time_s += 1.0 / 30.0;
