@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/sky/sea_waves.h"
+#include "render/weather_area.h"
 
 namespace skyig::render::cloud::impostor {
 
@@ -22,6 +23,9 @@ constexpr float kFiner = 2.0F;
 // Texels to the smallest particle's radius: finer ones show nothing more.
 constexpr float kTexelsARadius = 5.0F;
 constexpr float kAtOnce = 1e6F;
+constexpr float kShrunk = 1.6F;
+constexpr double kRetry_s = 0.5;
+constexpr double kFastest_m_s = 1000.0;
 constexpr double kLongestStep_s = 5.0;
 
 float angle_between(const glm::vec3& a, const glm::vec3& b) {
@@ -71,12 +75,17 @@ glm::dvec3 ImpostorClouds::middle_m(const Cloud& cloud, const Eye& eye) const no
 }
 
 float ImpostorClouds::newest_part(const Cloud& cloud) const noexcept {
-    const double part = (moment_.time_s - cloud.fade_from_s) / settings_.fade_s;
+    const double part = (moment_.time_s - cloud.fade_from_s) / cloud.fade_s;
     return static_cast<float>(std::clamp(part, 0.0, 1.0));
 }
 
 float ImpostorClouds::growth_now(const Cloud& cloud) const noexcept {
-    return growth(moment_.layer.coverage, cloud.key);
+    double coverage = moment_.layer.coverage;
+    if (moment_.layer.area) {
+        const glm::dvec3 middle = middle_m(cloud, moment_.eye);
+        coverage *= area_weight(*moment_.layer.area, {middle.x, middle.y});
+    }
+    return growth(coverage, cloud.key);
 }
 
 void ImpostorClouds::update(const Moment& moment) noexcept {
@@ -94,6 +103,7 @@ void ImpostorClouds::update(const Moment& moment) noexcept {
         for (Cloud& cloud : clouds_)
             clear(cloud);
     }
+    find_velocity(jumped ? 0.0 : step_s);
     find_cells();
     work_.packed = atlas_->tidy(moment.time_s);
     for (Cloud& cloud : clouds_)
@@ -106,6 +116,15 @@ void ImpostorClouds::clear(Cloud& cloud) noexcept {
     for (const Picture& picture : cloud.pictures)
         atlas_->release(picture.id);
     cloud = {};
+}
+
+void ImpostorClouds::find_velocity(double step_s) noexcept {
+    const glm::dvec2 ground = sky::sea_anchor(moment_.eye).eye_m - moment_.layer.drift_m;
+    const glm::dvec3 place{ground, moment_.eye.height_m};
+    if (step_s > 0.0) velocity_m_s_ = (place - place_m_) / step_s;
+    // A new eye, not a flight.
+    if (step_s <= 0.0 || glm::length(velocity_m_s_) > kFastest_m_s) velocity_m_s_ = glm::dvec3{0.0};
+    place_m_ = place;
 }
 
 void ImpostorClouds::find_cells() noexcept {
@@ -159,7 +178,7 @@ float ImpostorClouds::light_urgency(const Cloud& cloud) const noexcept {
 float ImpostorClouds::picture_urgency(const Cloud& cloud) const noexcept {
     const Picture& newest = cloud.pictures[0];
     if (!cloud.made || (cloud.particles == 0 && newest.id == Atlas::kNone)) return 0.0F;
-    if (!moment_.jumped && newest_part(cloud) < 1.0F) return 0.0F;
+    if (!moment_.jumped && (newest_part(cloud) < 1.0F || moment_.time_s < cloud.wait_s)) return 0.0F;
     const glm::vec3 middle{middle_m(cloud, moment_.eye)};
     const float distance = glm::length(middle);
     if (cloud.particles > 0) {
@@ -235,26 +254,41 @@ void ImpostorClouds::renew_pictures() noexcept {
 }
 
 void ImpostorClouds::take_picture(Cloud& cloud) noexcept {
-    const glm::vec3 middle{middle_m(cloud, moment_.eye)};
+    glm::vec3 middle{middle_m(cloud, moment_.eye)};
+    // As it will be seen when this picture has taken over.
+    const glm::vec3 ahead = middle - glm::vec3{velocity_m_s_ * settings_.fade_s};
+    if (!moment_.jumped && glm::length(ahead) > kPictures * cloud.bound_m) middle = ahead;
     const std::span<Shaded> shaded{shaded_.data(), cloud.particles};
     shade(particles(cloud), lit(cloud), shading_, middle, shaded);
     const float finest = class_radius_m(cloud.shape, 0) / (kTexelsARadius * glm::length(middle));
     Picture picture;
+    picture.bound_m = cloud.bound_m;
     picture.capture =
         capture_of(shaded, middle, std::max(moment_.texel_rad, finest), settings_.atlas.most_side);
     if (picture.capture.size.x > 0) {
         picture.wanted_texel_m = std::max(moment_.texel_rad, finest) * glm::length(middle);
         picture.id = atlas_->allocate(picture.capture.size);
-        // Without room the old picture is better than none.
-        if (picture.id == Atlas::kNone) return;
+        if (picture.id == Atlas::kNone) {
+            cloud.wait_s = moment_.time_s + kRetry_s;
+            return;
+        }
+        const float best_m = picture.capture.texel_m;
         picture.capture = resized(picture.capture, atlas_->size(picture.id));
+        // An old picture is better than one that is much coarser than it should be.
+        if (cloud.pictures[0].id != Atlas::kNone && picture.capture.texel_m > kShrunk * best_m) {
+            atlas_->release(picture.id);
+            cloud.wait_s = moment_.time_s + kRetry_s;
+            return;
+        }
         draw(shaded, picture.capture, canvas_);
         atlas_->write(picture.id, canvas_.data());
     }
     atlas_->release(cloud.pictures[1].id);
     cloud.pictures[1] = cloud.pictures[0];
     cloud.pictures[0] = picture;
-    cloud.fade_from_s = moment_.jumped ? moment_.time_s - settings_.fade_s : moment_.time_s;
+    const bool first = cloud.pictures[1].id == Atlas::kNone;
+    cloud.fade_s = first ? settings_.first_fade_s : settings_.fade_s;
+    cloud.fade_from_s = moment_.jumped ? moment_.time_s - cloud.fade_s : moment_.time_s;
     cloud.stale = false;
     end_fade(cloud);
 }

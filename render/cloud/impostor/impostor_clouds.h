@@ -27,9 +27,11 @@ struct ImpostorSettings {
     /// A frame, at most: clouds made or lit anew, pictures drawn anew.
     int lights_per_update = 4;
     int pictures_per_update = 6;
-    /// Of scene time, from one picture of a cloud to the next.
-    double fade_s = 0.3;
-    /// How far what stands before or behind a picture's plane may seem displaced, texels.
+    /// Of scene time, from one picture of a cloud to the next; and from none to its first.
+    double fade_s = 2.2;
+    double first_fade_s = 3.0;
+    /// How far what stands before or behind a picture's plane may be displaced, texels. Rays see some of it
+    /// in relief: what is left over is less.
     float most_shift = 1.0F;
 };
 
@@ -49,6 +51,8 @@ struct Moment {
 struct Picture {
     Atlas::Id id = Atlas::kNone;
     Capture capture;
+    /// Of the cloud that it shows.
+    float bound_m = 0.0F;
     /// That it was wanted with; the atlas may have had less room.
     float wanted_texel_m = 0.0F;
 };
@@ -72,12 +76,15 @@ struct Cloud {
     /// The newest, and the one that it takes over from.
     std::array<Picture, 2> pictures{};
     double fade_from_s = 0.0;
+    double fade_s = 2.2;
+    /// No picture is tried before: the atlas had no room.
+    double wait_s = -1e300;
 };
 
 /// From `kDirect` bounds on a cloud is shown by pictures alone, below `kPictures` by its particles alone, and
 /// by both in between.
-inline constexpr float kDirect = 1.7F;
-inline constexpr float kPictures = 1.35F;
+inline constexpr float kDirect = 2.6F;
+inline constexpr float kPictures = 2.0F;
 
 /// Allocates at construction alone. A CloudSource that was frozen from it reads it in place:
 /// update() only when no march is under way.
@@ -115,6 +122,7 @@ class ImpostorClouds {
         std::uint32_t cloud;
     };
     void find_cells() noexcept;
+    void find_velocity(double step_s) noexcept;
     void clear(Cloud& cloud) noexcept;
     void end_fade(Cloud& cloud) noexcept;
     void renew_light() noexcept;
@@ -139,6 +147,9 @@ class ImpostorClouds {
     Moment moment_;
     CloudShape shape_;
     bool begun_ = false;
+    /// Of the eye through the layer's air, east, north, up, and where it was.
+    glm::dvec3 velocity_m_s_{0.0};
+    glm::dvec3 place_m_{0.0};
     std::vector<Cloud> clouds_;
     std::vector<Particle> particles_;
     std::vector<Lit> lit_;

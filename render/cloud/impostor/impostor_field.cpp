@@ -15,7 +15,12 @@ constexpr std::size_t kBins = static_cast<std::size_t>(kAzimuths) * kElevations;
 constexpr std::size_t kEntries = 1U << 18U;
 constexpr float kOpaque = 0.998F;
 constexpr float kFadeFrom = 0.85F;  // of a layer's range
+constexpr float kBeside = 1.05F;
 constexpr int kMostTaps = 4;
+// Of relief: opacity from which a depth is taken for what it says, and the farthest that it moves a look,
+// texels.
+constexpr float kSure = 0.3F;
+constexpr float kMostRelief = 3.0F;
 constexpr double kEarthRadius_m = 6371000.0;
 
 // 0..4 once round, rising with the angle from +x to +y.
@@ -139,11 +144,12 @@ ImpostorField::Board ImpostorField::board_of(const ImpostorClouds& clouds, const
     board.atlas = &clouds.atlas();
     board.id = picture.id;
     board.part = part;
-    board.over_distance = capture.away / ahead;
+    board.away = capture.away;
     board.right = capture.right;
     board.up = capture.up;
-    board.corner_m = glm::vec2{glm::dot(middle_m, capture.right), glm::dot(middle_m, capture.up)} +
-                     capture.corner_m + 0.5F * capture.texel_m;
+    board.middle_m = {glm::dot(middle_m, capture.right), glm::dot(middle_m, capture.up), ahead};
+    board.drawn_from_m = glm::length(capture.middle_m);
+    board.corner_m = capture.corner_m + 0.5F * capture.texel_m;
     board.texels_per_m = 1.0F / capture.texel_m;
     board.size = capture.size;
     board.texel_rad = capture.texel_m / ahead;
@@ -156,8 +162,9 @@ void ImpostorField::place(const ImpostorClouds& clouds, const Cloud& cloud, cons
     placed = {};
     placed.middle_m = glm::vec3{clouds.middle_m(cloud, eye)};
     placed.distance_m = glm::length(placed.middle_m);
-    // A picture may still show more than there is by now.
-    placed.bound_m = std::max(cloud.bound_m, cloud.shape.bound_m);
+    // A picture may still show more than there is by now, and a little beside its place.
+    placed.bound_m =
+        kBeside * std::max({cloud.bound_m, cloud.pictures[0].bound_m, cloud.pictures[1].bound_m});
     const auto range = static_cast<float>(clouds.range_m());
     placed.part = 1.0F - smooth_step(kFadeFrom * range, range, placed.distance_m);
     const float newest = clouds.newest_part(cloud);
@@ -209,31 +216,49 @@ void ImpostorField::index_bins() noexcept {
     starts_.back() = entries;
 }
 
+void ImpostorField::fetch(const Board& board, const glm::vec2& place, float weight, Texel& sum) noexcept {
+    const glm::vec2 last = glm::vec2{board.size} - 1.0F;
+    if (!(place.x >= 0.0F && place.y >= 0.0F && place.x < last.x && place.y < last.y)) return;
+    const glm::ivec2 low{place};
+    int stride = 0;
+    const Texel* corner = board.atlas->corner(board.id, low, stride);
+    kernels().add(corner, stride, place.x - static_cast<float>(low.x), place.y - static_cast<float>(low.y),
+                  weight, sum);
+}
+
 Texel ImpostorField::look(const Board& board, const glm::vec3& ray, float ray_rad) noexcept {
     Texel sum{};
-    const float over_way = glm::dot(ray, board.over_distance);
-    if (!(over_way > 1e-9F)) return sum;
-    const float way_m = 1.0F / over_way;
-    const glm::vec2 on_plane = glm::vec2{glm::dot(ray, board.right), glm::dot(ray, board.up)} * way_m;
-    const glm::vec2 place = (on_plane - board.corner_m) * board.texels_per_m;
+    const float forward = glm::dot(ray, board.away);
+    if (!(forward > 1e-6F)) return sum;
+    const glm::vec2 sideways{glm::dot(ray, board.right), glm::dot(ray, board.up)};
+    const glm::vec2 middle{board.middle_m.x, board.middle_m.y};
+    // Where the ray passes `depth_m` behind the plane, as it was seen from where the picture was drawn.
+    const auto place_at = [&](float depth_m) {
+        const glm::vec2 point = sideways * ((board.middle_m.z + depth_m) / forward) - middle;
+        const float shrunk = board.drawn_from_m / (board.drawn_from_m + depth_m);
+        return (point * shrunk - board.corner_m) * board.texels_per_m;
+    };
+    // Seen from elsewhere the plane shows what stands before or behind it in a wrong place: one look tells
+    // how far off it is, the next one finds it (relief mapping, Oliveira et al., SIGGRAPH 2000, in one step).
+    const glm::vec2 flat = place_at(0.0F);
+    Texel first{};
+    fetch(board, flat, 1.0F, first);
+    // Where there is little to see the depth is uncertain: it goes to nothing with the opacity.
+    glm::vec2 shift = place_at(first.v[kDepth_m] / std::max(first.v[kOpacity], kSure)) - flat;
+    const float far = glm::length(shift);
+    if (far > kMostRelief) shift *= kMostRelief / far;
+    const glm::vec2 place = flat + shift;
     // A ray that stands for more than two texels looks at several places.
     const float span = ray_rad / board.texel_rad;
     const int taps = std::clamp(static_cast<int>(0.5F * span + 0.5F), 1, kMostTaps);
     const float step = span / static_cast<float>(taps);
     const float weight = 1.0F / static_cast<float>(taps * taps);
-    const glm::vec2 last = glm::vec2{board.size} - 1.0F;
-    const Kernels& kernel = kernels();
     for (int i = 0; i < taps * taps; ++i) {
         const glm::vec2 tap{static_cast<float>(i % taps), static_cast<float>(i / taps)};
-        const glm::vec2 at = place + (tap - 0.5F * static_cast<float>(taps - 1)) * step;
-        if (!(at.x >= 0.0F && at.y >= 0.0F && at.x < last.x && at.y < last.y)) continue;
-        const glm::ivec2 low{at};
-        int stride = 0;
-        const Texel* corner = board.atlas->corner(board.id, low, stride);
-        kernel.add(corner, stride, at.x - static_cast<float>(low.x), at.y - static_cast<float>(low.y), weight,
-                   sum);
+        fetch(board, place + (tap - 0.5F * static_cast<float>(taps - 1)) * step, weight, sum);
     }
-    sum.v[kDepth_m] += way_m * sum.v[kOpacity];
+    // From depth behind the plane to distance from the eye.
+    sum.v[kDepth_m] = (sum.v[kDepth_m] + board.middle_m.z * sum.v[kOpacity]) / forward;
     return sum;
 }
 

@@ -20,7 +20,7 @@ class ImpostorField final : public CloudSource {
     /// Of all layers together; farther ones are left out.
     static constexpr std::size_t kMostClouds = 4096;
     /// Clouds so near that rays meet their particles; of any farther one the picture has to do.
-    static constexpr std::size_t kMostNear = 12;
+    static constexpr std::size_t kMostNear = 20;
 
     ImpostorField();
 
@@ -36,15 +36,19 @@ class ImpostorField final : public CloudSource {
     [[nodiscard]] std::size_t cloud_count() const noexcept { return placed_count_; }
 
   private:
-    /// A picture on its plane; t = 1 / dot(ray, over_distance) is the way to it.
+    /// A picture on its plane.
     struct Board {
         const Atlas* atlas = nullptr;
         Atlas::Id id = Atlas::kNone;
         float part = 0.0F;
-        glm::vec3 over_distance{0.0F};
+        glm::vec3 away{0.0F};
         glm::vec3 right{0.0F};
         glm::vec3 up{0.0F};
-        /// Of the first texel's middle, as dot products with right and up.
+        /// The cloud's middle along these three.
+        glm::vec3 middle_m{0.0F};
+        /// From where it was drawn.
+        float drawn_from_m = 1.0F;
+        /// Of the first texel's middle, from the cloud's.
         glm::vec2 corner_m{0.0F};
         float texels_per_m = 0.0F;
         glm::ivec2 size{0};
@@ -78,6 +82,7 @@ class ImpostorField final : public CloudSource {
                                         const glm::vec3& middle_m) noexcept;
     void index_bins() noexcept;
     [[nodiscard]] static Texel look(const Board& board, const glm::vec3& ray, float ray_rad) noexcept;
+    static void fetch(const Board& board, const glm::vec2& place, float weight, Texel& sum) noexcept;
     [[nodiscard]] Texel look(const Placed& cloud, const glm::vec3& ray, const CloudRange& range,
                              float ray_rad) const noexcept;
     [[nodiscard]] CloudSample follow(const glm::vec3& ray, const CloudRange& range,

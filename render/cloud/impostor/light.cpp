@@ -67,11 +67,16 @@ void LightBuffer::prepare(const CloudShape& shape) noexcept {
     constexpr float kMiddle = 0.5F * kStampSide;
     for (std::uint32_t key = 0; key < CloudShape::kSizes; ++key) {
         const float radius = std::clamp(class_radius_m(shape, key) * texels_per_m_, 1.0F, kMiddle);
+        const auto part = [radius](float dx, float dy) {
+            const float q = std::max(0.0F, 1.0F - (dx * dx + dy * dy) / (radius * radius));
+            return q * q * std::sqrt(q);
+        };
+        // Where the light is read, between the four middle texels, a particle takes all that it is told to.
+        const float middle = part(0.5F, 0.5F);
         for (int i = 0; i < kStampSide * kStampSide; ++i) {
             const float dx = static_cast<float>(i % kStampSide) + 0.5F - kMiddle;
             const float dy = static_cast<float>(i / kStampSide) + 0.5F - kMiddle;
-            const float q = std::max(0.0F, 1.0F - (dx * dx + dy * dy) / (radius * radius));
-            masks_[key][static_cast<std::size_t>(i)] = word(q * q * std::sqrt(q));
+            masks_[key][static_cast<std::size_t>(i)] = word(part(dx, dy) / middle);
         }
     }
 }

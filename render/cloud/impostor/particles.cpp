@@ -16,7 +16,7 @@ constexpr float kSmallest = 0.6F;  // radius of the least particle, of the large
 constexpr float kOverlap = 1.2F;
 constexpr float kMeanDensity = 0.957F * kOverlap * kOverlap * kOverlap;
 // Of a cell's box, what a cloud fills at most.
-constexpr float kFilled = 1.55F;
+constexpr float kFilled = 2.0F;
 constexpr double kUsualExtinction_per_m = 0.04;
 constexpr double kIceExtinction_per_m = 0.001;
 /// Shapes are new after about this time.
@@ -108,8 +108,8 @@ float growth(double coverage, std::uint32_t key) noexcept {
     if (!(coverage > 0.0)) return 0.0F;
     // Fewer and smaller clouds under little cover. Fitted to the measured part of the ground below opaque
     // cloud (particles_test).
-    constexpr std::array<double, 11> kReach{0.0,   0.525, 0.722, 0.876, 1.013, 1.151,
-                                            1.300, 1.472, 1.682, 1.988, 3.0};
+    constexpr std::array<double, 11> kReach{0.0,   0.534, 0.741, 0.903, 1.048, 1.197,
+                                            1.361, 1.548, 1.780, 2.130, 3.0};
     const double place = std::clamp(coverage, 0.0, 1.0) * 10.0;
     const auto low = std::min(static_cast<std::size_t>(place), kReach.size() - 2);
     const double reach = kReach[low] + (place - static_cast<double>(low)) * (kReach[low + 1] - kReach[low]);
