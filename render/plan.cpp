@@ -90,6 +90,7 @@ Cost cost_of(Pass pass) {
         case Pass::kSunSky:
         case Pass::kMoonSky:
         case Pass::kNightSky:
+        case Pass::kVeil:
             return Cost::kNewTable;
         case Pass::kDome:
         case Pass::kWaves:
@@ -160,8 +161,8 @@ void plan_night(Plan& plan, double sun_rad) {
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables", "sun sky", "moon sky", "night sky", "dome",      "waves",     "milky way",
-        "stars",      "corona",  "sun disc", "moon disc", "sun glare", "moon glare"};
+        "air tables", "sun sky", "moon sky", "night sky", "veil",      "dome",      "waves",
+        "milky way",  "stars",   "corona",   "sun disc",  "moon disc", "sun glare", "moon glare"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -201,6 +202,7 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kAirTables, {air_stale, air_stale ? "the air is new" : "the air has not changed"});
     plan_skies(plan, scene, held, sun_rad, moon_rad);
     plan_night(plan, sun_rad);
+    put(plan, Pass::kVeil, {false, "not decided yet"});
     put(plan, Pass::kDome, {true, "smooth light of all directions"});
     put(plan, Pass::kWaves, {false, "not decided yet"});
     put(plan, Pass::kStars, {false, "not decided yet"});
@@ -224,6 +226,17 @@ DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& qu
     return {std::clamp(held.columns, least.columns, ample.columns),
             std::clamp(held.sky_rows, least.sky_rows, ample.sky_rows),
             std::clamp(held.ground_rows, least.ground_rows, ample.ground_rows)};
+}
+
+void plan_veil(Plan& plan, const Scene& scene, std::size_t segments) noexcept {
+    if (scene.weather.obscurant_count == 0) {
+        put(plan, Pass::kVeil, {false, "there is no fog, haze, dust or the like"});
+    } else if (segments == 0) {
+        put(plan, Pass::kVeil, {false, "what there is, is nothing where the eye is"});
+    } else {
+        put(plan, Pass::kVeil, {true, "it rides on the dome's vertices, free of cost by pixel"});
+    }
+    plan.passes[static_cast<std::size_t>(Pass::kVeil)].resolution = {static_cast<int>(segments), 0};
 }
 
 void plan_waves(Plan& plan, const Scene& scene, const sky::SeaWaves& waves, bool lit) noexcept {

@@ -12,6 +12,7 @@ enum class Pass {
     kSunSky,     ///< direction table of sunlit air
     kMoonSky,    ///< direction table of moonlit air
     kNightSky,   ///< direction table of airglow, zodiacal light, even starlight, towns
+    kVeil,       ///< light of fog, haze, dust and their like, on the dome's vertices
     kDome,       ///< smooth light of all directions, toned at the vertices
     kWaves,      ///< waves of the sea, where pixels resolve them
     kMilkyWay,   ///< what the Milky Way adds to even starlight
@@ -22,7 +23,7 @@ enum class Pass {
     kSunGlare,  ///< the veil round the disc in the eye
     kMoonGlare,
 };
-inline constexpr std::size_t kPassCount = 13;
+inline constexpr std::size_t kPassCount = 14;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 

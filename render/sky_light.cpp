@@ -7,6 +7,7 @@
 #include "render/colour.h"
 #include "render/night/natural_light.h"
 #include "render/night/starlight.h"
+#include "render/sky/geometry.h"
 
 namespace skyig::render {
 
@@ -65,12 +66,59 @@ double SkyLight::straight_elevation_rad(double elevation_rad) const noexcept {
 
 glm::vec3 SkyLight::smooth_rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept {
     const double straight_rad = straight_elevation_rad(elevation_rad);
-    const double above_rad = straight_rad - straight_horizon_rad;
     const bool ground =
         side == Side::kGround || (side == Side::kByElevation && elevation_rad < horizon_elevation_rad);
+    const glm::vec3 clear = clear_rgb_cd_m2(straight_rad, azimuth_rad, ground);
+    return veil != nullptr ? veiled(clear, straight_rad, azimuth_rad, ground) : clear;
+}
+
+glm::vec3 SkyLight::clear_rgb_cd_m2(double straight_rad, double azimuth_rad, bool ground) const noexcept {
+    const double above_rad = straight_rad - straight_horizon_rad;
     return rec709_from_xyz(xyz_of(sun, above_rad, azimuth_rad, ground) +
                            xyz_of(moon, above_rad, azimuth_rad, ground)) +
            dark_sky(*this, straight_rad, azimuth_rad, ground);
+}
+
+// Of the straight ray: the ground's, or past all veils.
+double SkyLight::end_m(double straight_rad, bool ground) const noexcept {
+    if (!ground) return fog::Veil::kEndless_m;
+    constexpr sky::Shell kEarth{kEarthRadius_m, 0.0};
+    return kEarth.distance_to_ground_m(std::max(eye_height_m, 0.0),
+                                       std::sin(std::min(straight_rad, straight_horizon_rad)));
+}
+
+fog::Veil::Seen SkyLight::veil_seen(double straight_rad, double azimuth_rad, bool ground) const noexcept {
+    // From one side of the horizon only, as the tables are asked.
+    const double own_rad = ground ? std::min(straight_rad, straight_horizon_rad)
+                                  : std::max(straight_rad, straight_horizon_rad);
+    return veil->seen(direction_of({own_rad, azimuth_rad}), end_m(straight_rad, ground));
+}
+
+// Behind the veil the ground lies in what light it leaves; before a veil far away lies clear air, which has the
+// horizon's colour where there is much of it.
+glm::vec3 SkyLight::veiled(const glm::vec3& clear_cd_m2, double straight_rad, double azimuth_rad,
+                           bool ground) const noexcept {
+    constexpr double kSeenThrough = 1e-3;
+    const fog::Veil::Seen seen = veil_seen(straight_rad, azimuth_rad, ground);
+    const double height_m = std::max(eye_height_m, 0.0);
+    glm::dvec3 behind{clear_cd_m2};
+    if (ground) {
+        const glm::dvec3 shown = front_air.passes(height_m, 0.0, end_m(straight_rad, true));
+        behind *= 1.0 + shown * (veil->ground_share() - 1.0);
+    }
+    glm::dvec3 light = seen.smooth_passed * behind + seen.added_cd_m2;
+    const double veil_m = shaders64::veil_rise_m(seen.distance_m, {std::sin(straight_rad), veil->eye_radius_m()});
+    const glm::dvec3 lost = 1.0 - front_air.passes(height_m, height_m + veil_m, seen.distance_m);
+    const double kept_away = 1.0 - seen.smooth_passed;
+    if (lost.z * kept_away > kSeenThrough) {
+        const glm::dvec3 horizon{clear_rgb_cd_m2(straight_horizon_rad, azimuth_rad, false)};
+        light += lost * (kept_away * horizon - seen.added_cd_m2);
+    }
+    return glm::vec3{light};
+}
+
+double SkyLight::veil_passes(double straight_rad) const noexcept {
+    return veil != nullptr ? veil->passed(std::sin(std::max(straight_rad, straight_horizon_rad))) : 1.0;
 }
 
 glm::vec3 SkyLight::rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept {
@@ -86,7 +134,10 @@ glm::vec3 SkyLight::rgb_cd_m2(double elevation_rad, double azimuth_rad, Side sid
 glm::vec3 SkyLight::belt_passes(double elevation_rad) const noexcept {
     if (night == nullptr) return glm::vec3{0.0F};
     const double above_rad = straight_elevation_rad(elevation_rad) - straight_horizon_rad;
-    return milky_way.share * night->transmittance(above_rad) * glm::vec3{night::natural_colours().starlight};
+    const glm::vec3 clear =
+        milky_way.share * night->transmittance(above_rad) * glm::vec3{night::natural_colours().starlight};
+    if (veil == nullptr) return clear;
+    return static_cast<float>(veil_seen(above_rad + straight_horizon_rad, 0.0, false).smooth_passed) * clear;
 }
 
 double SkyLight::belt_above_horizon(double elevation_rad) const noexcept {
@@ -113,6 +164,12 @@ SlopeLight SkyLight::of_slopes(double elevation_rad, double azimuth_rad) const n
         if (lit != &glittering()) continue;
         sum.glitter = rec709_from_xyz(lit->scale_xyz * slopes.glitter_xyz);
         sum.density = slopes.density;
+    }
+    if (veil != nullptr) {
+        const auto passed =
+            static_cast<float>(veil_seen(above_rad + straight_horizon_rad, azimuth_rad, true).smooth_passed);
+        for (glm::vec3* part : {&sum.east, &sum.north, &sum.bend_cd_m2, &sum.glitter})
+            *part *= passed;
     }
     return sum;
 }

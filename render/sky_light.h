@@ -2,8 +2,10 @@
 // and discs, the adaptation and the tests all ask.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 
+#include "render/fog/veil.h"
 #include "render/geometry.h"
 #include "render/night/milky_way_map.h"
 #include "render/night/night_sky.h"
@@ -72,6 +74,12 @@ struct SkyLight {
     const night::NightSky* night = nullptr;
     float night_share = 1.0F;
     LitBelt milky_way;
+    /// What fog and its like lay before all of this; null where there is none.
+    const fog::Veil* veil = nullptr;
+    /// Rises when the veil shows otherwise.
+    std::uint64_t veil_revision = 0;
+    /// Before a veil far away.
+    fog::FrontAir front_air;
 
     /// Elevation of the straight ray that stands in the tables for the curved one seen at `elevation_rad`: it
     /// comes as near to the ground. The same above the level; on the horizon the straight horizon (0.2 deg
@@ -90,6 +98,10 @@ struct SkyLight {
     [[nodiscard]] glm::vec3 smooth_rgb_cd_m2(double elevation_rad, double azimuth_rad,
                                              Side side) const noexcept;
 
+    /// Part of the light of a disc or star that the veil lets through. \param straight_rad  as
+    /// straight_elevation_rad() has it
+    [[nodiscard]] double veil_passes(double straight_rad) const noexcept;
+
     /// Factors of the belt's luminance outside the air that make its light at the eye, without
     /// belt_above_horizon(). Linear Rec.709.
     [[nodiscard]] glm::vec3 belt_passes(double elevation_rad) const noexcept;
@@ -98,6 +110,15 @@ struct SkyLight {
     [[nodiscard]] double belt_above_horizon(double elevation_rad) const noexcept;
 
     static constexpr double kBeltEdge = 0.01;
+
+  private:
+    [[nodiscard]] glm::vec3 clear_rgb_cd_m2(double straight_rad, double azimuth_rad,
+                                            bool ground) const noexcept;
+    [[nodiscard]] fog::Veil::Seen veil_seen(double straight_rad, double azimuth_rad,
+                                            bool ground) const noexcept;
+    [[nodiscard]] glm::vec3 veiled(const glm::vec3& clear_cd_m2, double straight_rad, double azimuth_rad,
+                                   bool ground) const noexcept;
+    [[nodiscard]] double end_m(double straight_rad, bool ground) const noexcept;
 };
 
 }  // namespace skyig::render

@@ -70,7 +70,7 @@ struct CloudLayer {
     /// Layers of unlike seeds have unlike clouds.
     std::uint32_t seed = 0;
     /// Everywhere, if none.
-    std::optional<WeatherArea> area;
+    std::optional<WeatherArea> area{};
 
     friend bool operator==(const CloudLayer&, const CloudLayer&) = default;
 };
@@ -90,7 +90,7 @@ struct Obscurant {
     double coverage = 1.0;
     glm::dvec2 drift_m{0.0};
     std::uint32_t seed = 0;
-    std::optional<WeatherArea> area;
+    std::optional<WeatherArea> area{};
 
     friend bool operator==(const Obscurant&, const Obscurant&) = default;
 };
