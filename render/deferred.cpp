@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/colour.h"
 #include "render/sky/staleness.h"
@@ -84,6 +85,7 @@ void DeferredAir::update(const Scene& scene, const Plan& plan, const LightTables
         ++revision_;
     }
     tell_sources(scene, plan, light);
+    tell_veil(light);
 }
 
 // The lights of the table in use: one that has gone out adds nothing, one that has just come is not in it
@@ -99,6 +101,16 @@ void DeferredAir::tell_sources(const Scene& scene, const Plan& plan, const SkyLi
     }
 }
 
+void DeferredAir::tell_veil(const SkyLight& light) noexcept {
+    veil_ = light.veil;
+    if (veil_ == nullptr) return;
+    const fog::VeilSources& sources = veil_->sources();
+    glm::dvec3 level = sources.above_cd_m2;
+    for (const fog::VeilSources::Beam& beam : sources.beams)
+        level += beam.lux * (std::max(beam.direction_enu.z, 0.0) / std::numbers::pi);
+    beyond_veil_cd_m2_ = {sources.above_cd_m2, sources.ground_albedo * level * veil_->ground_share()};
+}
+
 glm::dvec3 DeferredAir::under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3& direction_enu,
                                   double distance_m) const noexcept {
     const Horizontal view = horizontal_of(direction_enu);
@@ -110,7 +122,23 @@ glm::dvec3 DeferredAir::under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3&
         passed = seen.passed_rgb;
         if (i < source_count_) added += sources_[i].rgb * seen.added_rgb;
     }
-    return rgb_cd_m2 * passed + added + night_cd_m2_ * (1.0 - passed);
+    added += night_cd_m2_ * (1.0 - passed);
+    if (veil_ == nullptr || !(distance_m > 0.0)) return rgb_cd_m2 * passed + added;
+    const glm::dvec3 ray_enu = direction_of(view);
+    const bool down = ray_enu.z < 0.0;
+    const auto meets_m = shaders64::veil_below_m(veil_->segments().front().low_m,
+                                                 {ray_enu.z, veil_->eye_radius_m()});
+    const double end_m = down && meets_m.y > meets_m.x ? meets_m.x : fog::Veil::kEndless_m;
+    const fog::Veil::Both sums = veil_->along(ray_enu, distance_m, end_m);
+    const glm::dvec3 per_m = -glm::log(glm::max(passed, glm::dvec3{1e-300})) / distance_m;
+    const glm::dvec3 endless = added / glm::max(1.0 - passed, glm::dvec3{1e-12});
+    const glm::dvec3 before = shaders64::veil_in_air(
+        sums.near, glm::exp(-per_m * shaders64::veil_distance_m(sums.near)), endless, added);
+    const glm::dvec3 without =
+        shaders64::veil_in_air(sums.whole, glm::exp(-per_m * shaders64::veil_distance_m(sums.whole)), endless,
+                               beyond_veil_cd_m2_[down ? 1 : 0]);
+    return rgb_cd_m2 * passed * std::exp(-sums.near.depth) +
+           shaders64::veil_before(before, without, sums.near);
 }
 
 }  // namespace skyig::render

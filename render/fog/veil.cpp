@@ -284,6 +284,22 @@ Veil::Seen Veil::seen(const glm::dvec3& direction_enu, double end_m) const noexc
             lost > 0.0 ? sum.moment_m / lost : 0.0};
 }
 
+Veil::Both Veil::along(const glm::dvec3& direction_enu, double distance_m, double end_m) const noexcept {
+    constexpr shaders64::VeilSum kNothing{0.0, 0.0, glm::dvec3{0.0}, 0.0};
+    const shaders64::VeilRay ray{direction_enu.z, eye_radius_m_};
+    const shaders64::VeilBeams lit = beams(direction_enu);
+    Both both{kNothing, kNothing};
+    if (!std::isfinite(ray.sine) || !(distance_m > 0.0)) return both;
+    each_piece(segments(), ray, end_m, [&](const Segment& s, double from_m, double to_m) {
+        const double at_m = std::clamp(distance_m, from_m, to_m);
+        both.whole = shaders64::veil_add(both.whole, s, from_m, at_m, ray, lit);
+        if (from_m < distance_m) both.near = both.whole;
+        both.whole = shaders64::veil_add(both.whole, s, at_m, to_m, ray, lit);
+        return true;
+    });
+    return both;
+}
+
 double Veil::passed(double sine, double end_m) const noexcept {
     return empty() ? 1.0 : std::exp(-optical_depth(sine, end_m));
 }

@@ -67,6 +67,13 @@ class Veil {
     };
     /// \param direction_enu  unit vector of the straight ray
     [[nodiscard]] Seen seen(const glm::dvec3& direction_enu, double end_m) const noexcept;
+    /// The ray up to a thing, and all of it as if the thing were not there.
+    struct Both {
+        shaders64::VeilSum near;
+        shaders64::VeilSum whole;
+    };
+    /// \param end_m  of the whole; a thing behind it stands at it
+    [[nodiscard]] Both along(const glm::dvec3& direction_enu, double distance_m, double end_m) const noexcept;
     /// Sharp things alone.
     [[nodiscard]] double passed(double sine, double end_m = kEndless_m) const noexcept;
     [[nodiscard]] double optical_depth(double sine, double end_m) const noexcept;

@@ -140,3 +140,21 @@ SKYIG_INLINE VeilSum veil_add(VeilSum sum, VeilSegment at, real from_m, real to_
     sum.moment_m += passed * (from_m * lost + (to_m - from_m) * moment);
     return sum;
 }
+
+// Air and veil together along a ray, smooth light: the veil's light `added` lies behind the air up to its mean distance,
+// whose part `air_passes` gets through, and where it is, that air's own light (`air_cd_m2`, of endless air) is before it.
+SKYIG_INLINE rvec3 veil_in_air(VeilSum sum, rvec3 air_passes, rvec3 air_cd_m2, rvec3 behind_cd_m2) {
+    rvec3 kept_away = air_cd_m2 * veil_lost(sum.cut_depth);
+    return kept_away + air_passes * (sum.added_cd_m2 - kept_away) + behind_cd_m2 * exp(-sum.cut_depth);
+}
+
+// Mean distance of what the veil keeps away.
+SKYIG_INLINE real veil_distance_m(VeilSum sum) {
+    return sum.moment_m / max(veil_lost(sum.cut_depth), real(1e-30));
+}
+
+// What is added before a thing: the light up to it, and of the light that would come from behind it so much as is scattered
+// by small angles alone, from beside it. Far off its contrast falls with what passes sharply: Koschmieder's law.
+SKYIG_INLINE rvec3 veil_before(rvec3 near_cd_m2, rvec3 whole_cd_m2, VeilSum near) {
+    return near_cd_m2 + max(whole_cd_m2 - near_cd_m2, rvec3(real(0.0))) * veil_lost(near.depth - near.cut_depth);
+}
