@@ -104,11 +104,24 @@ void DeferredAir::tell_sources(const Scene& scene, const Plan& plan, const SkyLi
 void DeferredAir::tell_veil(const SkyLight& light) noexcept {
     veil_ = light.veil;
     if (veil_ == nullptr) return;
+    front_air_ = light.front_air;
     const fog::VeilSources& sources = veil_->sources();
     glm::dvec3 level = sources.above_cd_m2;
     for (const fog::VeilSources::Beam& beam : sources.beams)
         level += beam.lux * (std::max(beam.direction_enu.z, 0.0) / std::numbers::pi);
     beyond_veil_cd_m2_ = {sources.above_cd_m2, sources.ground_albedo * level * veil_->ground_share()};
+}
+
+// Of air that does not end, towards there.
+glm::dvec3 DeferredAir::endless_cd_m2(const Horizontal& view) const noexcept {
+    constexpr double kEndless_m = 1e8;
+    glm::dvec3 sum = night_cd_m2_;
+    for (std::size_t i = 0; i < source_count_; ++i) {
+        const double azimuth_rad = view.azimuth_rad - horizontal_of(sources_[i].direction_enu).azimuth_rad;
+        const auto seen = front_.between(view.elevation_rad, azimuth_rad, kEndless_m, i);
+        sum += sources_[i].rgb * (seen.added_rgb / glm::max(1.0 - seen.passed_rgb, glm::dvec3{1e-12}));
+    }
+    return sum;
 }
 
 glm::dvec3 DeferredAir::under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3& direction_enu,
@@ -130,13 +143,16 @@ glm::dvec3 DeferredAir::under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3&
                                                  {ray_enu.z, veil_->eye_radius_m()});
     const double end_m = down && meets_m.y > meets_m.x ? meets_m.x : fog::Veil::kEndless_m;
     const fog::Veil::Both sums = veil_->along(ray_enu, distance_m, end_m);
-    const glm::dvec3 per_m = -glm::log(glm::max(passed, glm::dvec3{1e-300})) / distance_m;
-    const glm::dvec3 endless = added / glm::max(1.0 - passed, glm::dvec3{1e-12});
-    const glm::dvec3 before = shaders64::veil_in_air(
-        sums.near, glm::exp(-per_m * shaders64::veil_distance_m(sums.near)), endless, added);
-    const glm::dvec3 without =
-        shaders64::veil_in_air(sums.whole, glm::exp(-per_m * shaders64::veil_distance_m(sums.whole)), endless,
-                               beyond_veil_cd_m2_[down ? 1 : 0]);
+    const glm::dvec3 endless = endless_cd_m2(view);
+    const auto in_air = [&](const shaders64::VeilSum& sum, const glm::dvec3& behind) {
+        const double veil_m = shaders64::veil_distance_m(sum);
+        const double rise_m = shaders64::veil_rise_m(veil_m, {ray_enu.z, veil_->eye_radius_m()});
+        return shaders64::veil_in_air(sum, shaders64::veil_air_passes(rise_m, veil_m, front_air_),
+                                      endless, behind);
+    };
+    const glm::dvec3 before =
+        in_air(sums.near, shaders64::veil_own_air(added, passed, endless, sums.near));
+    const glm::dvec3 without = in_air(sums.whole, beyond_veil_cd_m2_[down ? 1 : 0]);
     return rgb_cd_m2 * passed * std::exp(-sums.near.depth) +
            shaders64::veil_before(before, without, sums.near);
 }

@@ -55,6 +55,7 @@ class DeferredAir {
     [[nodiscard]] const glm::dvec3& beyond_veil_cd_m2(bool ground) const noexcept {
         return beyond_veil_cd_m2_[ground ? 1 : 0];
     }
+    [[nodiscard]] const shaders64::VeilAir& air_before_veil() const noexcept { return front_air_; }
     /// Rises whenever the table in use is replaced.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
@@ -78,6 +79,7 @@ class DeferredAir {
     [[nodiscard]] static bool same_bodies(const Made& a, const Made& b) noexcept;
     [[nodiscard]] static double largest_step_rad(const Made& a, const Made& b) noexcept;
     void begin(const Made& wanted, const LightTables& tables);
+    [[nodiscard]] glm::dvec3 endless_cd_m2(const Horizontal& view) const noexcept;
     void tell_veil(const SkyLight& light) noexcept;
     void tell_sources(const Scene& scene, const Plan& plan, const SkyLight& light) noexcept;
 
@@ -90,6 +92,7 @@ class DeferredAir {
     std::size_t source_count_ = 0;
     glm::dvec3 night_cd_m2_{0.0};
     const fog::Veil* veil_ = nullptr;
+    shaders64::VeilAir front_air_{};
     std::array<glm::dvec3, 2> beyond_veil_cd_m2_{};
     std::uint64_t revision_ = 0;
 };

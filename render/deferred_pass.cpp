@@ -47,6 +47,8 @@ DeferredPass::DeferredPass()
       veil_{program_.uniform("u_veil_count"),
             program_.uniform("u_veil_radius_m"),
             program_.uniform("u_veil_slants"),
+            program_.uniform("u_veil_molecules"),
+            program_.uniform("u_veil_aerosol"),
             {program_.uniform("u_veil_lux[0]"), program_.uniform("u_veil_lux[1]")},
             {program_.uniform("u_veil_enu[0]"), program_.uniform("u_veil_enu[1]")},
             {program_.uniform("u_veil_beyond[0]"), program_.uniform("u_veil_beyond[1]")}},
@@ -97,6 +99,9 @@ void DeferredPass::upload_veil() {
     const shaders64::VeilBeams beams = veil->beams(glm::dvec3{0.0, 0.0, 1.0});
     program_.set(veil_.radius, static_cast<float>(veil->eye_radius_m()));
     program_.set(veil_.slants, glm::vec2{glm::dvec2{beams.first_slant, beams.second_slant}});
+    const shaders64::VeilAir& air = air_.air_before_veil();
+    program_.set(veil_.molecules, glm::vec4{glm::dvec4{air.molecules_per_m, air.molecules_height_m}});
+    program_.set(veil_.aerosol, glm::vec4{glm::dvec4{air.aerosol_per_m, air.aerosol_height_m}});
     for (std::size_t i = 0; i < 2; ++i) {
         program_.set(veil_.lux[i], glm::vec3{veil->sources().beams[i].lux});
         program_.set(veil_.direction[i], glm::vec3{veil->sources().beams[i].direction_enu});

@@ -45,7 +45,7 @@ class DeferredPass {
     std::array<gl::Texture, 2> rest_;
     std::array<gl::Texture, 2> haze_;
     struct VeilUniforms {
-        int count, radius, slants;
+        int count, radius, slants, molecules, aerosol;
         std::array<int, 2> lux, direction, beyond;
     };
     VeilUniforms veil_;

@@ -87,34 +87,36 @@ double SkyLight::end_m(double straight_rad, bool ground) const noexcept {
                                        std::sin(std::min(straight_rad, straight_horizon_rad)));
 }
 
-fog::Veil::Seen SkyLight::veil_seen(double straight_rad, double azimuth_rad, bool ground) const noexcept {
+shaders64::VeilSum SkyLight::veil_sum(double straight_rad, double azimuth_rad, bool ground) const noexcept {
     // From one side of the horizon only, as the tables are asked.
     const double own_rad = ground ? std::min(straight_rad, straight_horizon_rad)
                                   : std::max(straight_rad, straight_horizon_rad);
-    return veil->seen(direction_of({own_rad, azimuth_rad}), end_m(straight_rad, ground));
+    return veil->sum(direction_of({own_rad, azimuth_rad}), end_m(straight_rad, ground));
 }
 
-// Behind the veil the ground lies in what light it leaves; before a veil far away lies clear air, which has the
-// horizon's colour where there is much of it.
+// Behind the veil the ground lies in what light it leaves. Before a veil far away lies clear air: of the sky's
+// own light in that direction as much as there is of all its air, before the ground as at the horizon.
 glm::vec3 SkyLight::veiled(const glm::vec3& clear_cd_m2, double straight_rad, double azimuth_rad,
                            bool ground) const noexcept {
     constexpr double kSeenThrough = 1e-3;
-    const fog::Veil::Seen seen = veil_seen(straight_rad, azimuth_rad, ground);
-    const double height_m = std::max(eye_height_m, 0.0);
+    const shaders64::VeilSum sum = veil_sum(straight_rad, azimuth_rad, ground);
+    const double sine = std::sin(straight_rad);
     glm::dvec3 behind{clear_cd_m2};
     if (ground) {
-        const glm::dvec3 shown = front_air.passes(height_m, 0.0, end_m(straight_rad, true));
+        const glm::dvec3 shown =
+            shaders64::veil_air_passes(-std::max(eye_height_m, 0.0), end_m(straight_rad, true), front_air);
         behind *= 1.0 + shown * (veil->ground_share() - 1.0);
     }
-    glm::dvec3 light = seen.smooth_passed * behind + seen.added_cd_m2;
-    const double veil_m = shaders64::veil_rise_m(seen.distance_m, {std::sin(straight_rad), veil->eye_radius_m()});
-    const glm::dvec3 lost = 1.0 - front_air.passes(height_m, height_m + veil_m, seen.distance_m);
-    const double kept_away = 1.0 - seen.smooth_passed;
-    if (lost.z * kept_away > kSeenThrough) {
-        const glm::dvec3 horizon{clear_rgb_cd_m2(straight_horizon_rad, azimuth_rad, false)};
-        light += lost * (kept_away * horizon - seen.added_cd_m2);
+    const double veil_m = shaders64::veil_distance_m(sum);
+    const glm::dvec3 passes = shaders64::veil_air_passes(
+        shaders64::veil_rise_m(veil_m, {sine, veil->eye_radius_m()}), veil_m, front_air);
+    glm::dvec3 endless{clear_cd_m2};
+    if (!ground) {
+        endless /= 1.0 - shaders64::veil_all_air_passes(sine, front_air);
+    } else if ((1.0 - passes.z) * shaders64::veil_lost(sum.cut_depth) > kSeenThrough) {
+        endless = glm::dvec3{clear_rgb_cd_m2(straight_horizon_rad, azimuth_rad, false)};
     }
-    return glm::vec3{light};
+    return glm::vec3{shaders64::veil_in_air(sum, passes, endless, behind)};
 }
 
 double SkyLight::veil_passes(double straight_rad) const noexcept {
@@ -137,7 +139,7 @@ glm::vec3 SkyLight::belt_passes(double elevation_rad) const noexcept {
     const glm::vec3 clear =
         milky_way.share * night->transmittance(above_rad) * glm::vec3{night::natural_colours().starlight};
     if (veil == nullptr) return clear;
-    return static_cast<float>(veil_seen(above_rad + straight_horizon_rad, 0.0, false).smooth_passed) * clear;
+    return static_cast<float>(std::exp(-veil_sum(above_rad + straight_horizon_rad, 0.0, false).cut_depth)) * clear;
 }
 
 double SkyLight::belt_above_horizon(double elevation_rad) const noexcept {
@@ -167,7 +169,7 @@ SlopeLight SkyLight::of_slopes(double elevation_rad, double azimuth_rad) const n
     }
     if (veil != nullptr) {
         const auto passed =
-            static_cast<float>(veil_seen(above_rad + straight_horizon_rad, azimuth_rad, true).smooth_passed);
+            static_cast<float>(std::exp(-veil_sum(above_rad + straight_horizon_rad, azimuth_rad, true).cut_depth));
         for (glm::vec3* part : {&sum.east, &sum.north, &sum.bend_cd_m2, &sum.glitter})
             *part *= passed;
     }

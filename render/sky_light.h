@@ -79,7 +79,7 @@ struct SkyLight {
     /// Rises when the veil shows otherwise.
     std::uint64_t veil_revision = 0;
     /// Before a veil far away.
-    fog::FrontAir front_air;
+    shaders64::VeilAir front_air{};
 
     /// Elevation of the straight ray that stands in the tables for the curved one seen at `elevation_rad`: it
     /// comes as near to the ground. The same above the level; on the horizon the straight horizon (0.2 deg
@@ -114,7 +114,7 @@ struct SkyLight {
   private:
     [[nodiscard]] glm::vec3 clear_rgb_cd_m2(double straight_rad, double azimuth_rad,
                                             bool ground) const noexcept;
-    [[nodiscard]] fog::Veil::Seen veil_seen(double straight_rad, double azimuth_rad,
+    [[nodiscard]] shaders64::VeilSum veil_sum(double straight_rad, double azimuth_rad,
                                             bool ground) const noexcept;
     [[nodiscard]] glm::vec3 veiled(const glm::vec3& clear_cd_m2, double straight_rad, double azimuth_rad,
                                    bool ground) const noexcept;

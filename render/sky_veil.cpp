@@ -62,9 +62,13 @@ fog::VeilSources veil_sources(const Scene& scene, const sky::AirTables& air, con
     return sources;
 }
 
-fog::FrontAir front_air(const sky::AirModel& model) noexcept {
-    return {rgb_of(model.rayleigh_per_m), sky::column_above_m(model.molecules, 0.0),
-            rgb_of(model.aerosol_extinction_per_m), model.aerosol_scale_height_m};
+shaders64::VeilAir front_air(const sky::AirModel& model, double eye_height_m) noexcept {
+    const double height_m = std::max(eye_height_m, 0.0);
+    const double molecules_m = sky::column_above_m(model.molecules, 0.0);
+    const double thinned = sky::column_above_m(model.molecules, height_m) / molecules_m;
+    return {thinned * rgb_of(model.rayleigh_per_m),
+            std::exp(-height_m / model.aerosol_scale_height_m) * rgb_of(model.aerosol_extinction_per_m),
+            molecules_m, model.aerosol_scale_height_m};
 }
 
 void SkyVeil::lay(const Scene& scene, const sky::AirTables& air, double smallest, SkyLight& light) noexcept {
@@ -75,7 +79,7 @@ void SkyVeil::lay(const Scene& scene, const sky::AirTables& air, double smallest
     if (!veil_.empty()) {
         veil_.light(veil_sources(scene, air, light, veil_.top_m()));
         light.veil = &veil_;
-        light.front_air = front_air(air.model());
+        light.front_air = front_air(air.model(), scene.eye.height_m);
         now = fog::VeilMark(veil_);
     }
     if (now.differs(shown_, smallest)) {

@@ -15,7 +15,8 @@ namespace skyig::render {
 [[nodiscard]] fog::VeilSources veil_sources(const Scene& scene, const sky::AirTables& air,
                                             const SkyLight& light, double top_m) noexcept;
 
-[[nodiscard]] fog::FrontAir front_air(const sky::AirModel& model) noexcept;
+/// The air as seen from that height.
+[[nodiscard]] shaders64::VeilAir front_air(const sky::AirModel& model, double eye_height_m) noexcept;
 
 /// The veil of a frame, and when it shows otherwise than the frames before.
 class SkyVeil {

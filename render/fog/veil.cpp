@@ -36,23 +36,7 @@ double height_of_depth(const Profile::Shell& shell, double depth) {
     return std::clamp(shell.high_m - below_m, shell.low_m, shell.high_m);
 }
 
-// (1 - exp(-x)) / x
-double mean_passed(double x) {
-    return std::abs(x) < 1e-6 ? 1.0 - 0.5 * x : -std::expm1(-x) / x;
-}
-
-double column_m(double from_m, double to_m, double distance_m, double scale_m) {
-    const double low_m = std::max(std::min(from_m, to_m), 0.0);
-    const double span_m = std::abs(to_m - from_m);
-    return distance_m * std::exp(-low_m / scale_m) * mean_passed(span_m / scale_m);
-}
-
 }  // namespace
-
-glm::dvec3 FrontAir::passes(double from_m, double to_m, double distance_m) const noexcept {
-    return glm::exp(-molecules_per_m * column_m(from_m, to_m, distance_m, molecules_height_m) -
-                    aerosol_per_m * column_m(from_m, to_m, distance_m, aerosol_height_m));
-}
 
 shaders32::VeilSegment single_precision(const Veil::Segment& s) noexcept {
     const auto f = [](double value) { return static_cast<float>(value); };
@@ -268,20 +252,23 @@ shaders64::VeilBeams Veil::beams(const glm::dvec3& direction_enu) const noexcept
     return {sources_.beams[0].lux, sources_.beams[1].lux, slants_[0], slants_[1], cosine(0), cosine(1)};
 }
 
-Veil::Seen Veil::seen(const glm::dvec3& direction_enu, double end_m) const noexcept {
+shaders64::VeilSum Veil::sum(const glm::dvec3& direction_enu, double end_m) const noexcept {
     // Of what lies behind this nothing is seen.
     constexpr double kOpaque = 60.0;
+    shaders64::VeilSum sum{0.0, 0.0, glm::dvec3{0.0}, 0.0};
     const shaders64::VeilRay ray{direction_enu.z, eye_radius_m_};
     const shaders64::VeilBeams lit = beams(direction_enu);
-    shaders64::VeilSum sum{0.0, 0.0, glm::dvec3{0.0}, 0.0};
-    if (!std::isfinite(ray.sine) || !(end_m > 0.0)) return {};
+    if (!std::isfinite(ray.sine) || !(end_m > 0.0)) return sum;
     each_piece(segments(), ray, end_m, [&](const Segment& segment, double from_m, double to_m) {
         sum = shaders64::veil_add(sum, segment, from_m, to_m, ray, lit);
         return sum.cut_depth < kOpaque;
     });
-    const double lost = shaders64::veil_lost(sum.cut_depth);
-    return {std::exp(-sum.depth), std::exp(-sum.cut_depth), sum.added_cd_m2,
-            lost > 0.0 ? sum.moment_m / lost : 0.0};
+    return sum;
+}
+
+Veil::Seen Veil::seen(const glm::dvec3& direction_enu, double end_m) const noexcept {
+    const shaders64::VeilSum all = sum(direction_enu, end_m);
+    return {std::exp(-all.depth), std::exp(-all.cut_depth), all.added_cd_m2, shaders64::veil_distance_m(all)};
 }
 
 Veil::Both Veil::along(const glm::dvec3& direction_enu, double distance_m, double end_m) const noexcept {

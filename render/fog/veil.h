@@ -30,17 +30,6 @@ struct VeilSources {
     double ground_albedo = 0.1;
 };
 
-/// The base air between the eye and a veil far away, linear red, green and blue: exponential in height.
-struct FrontAir {
-    glm::dvec3 molecules_per_m{0.0};
-    double molecules_height_m = 8400.0;
-    glm::dvec3 aerosol_per_m{0.0};
-    double aerosol_height_m = 1200.0;
-
-    /// \param from_m, to_m  heights of its ends
-    [[nodiscard]] glm::dvec3 passes(double from_m, double to_m, double distance_m) const noexcept;
-};
-
 class Veil {
   public:
     using Segment = shaders64::VeilSegment;
@@ -66,6 +55,7 @@ class Veil {
         double distance_m = 0.0;
     };
     /// \param direction_enu  unit vector of the straight ray
+    [[nodiscard]] shaders64::VeilSum sum(const glm::dvec3& direction_enu, double end_m) const noexcept;
     [[nodiscard]] Seen seen(const glm::dvec3& direction_enu, double end_m) const noexcept;
     /// The ray up to a thing, and all of it as if the thing were not there.
     struct Both {

@@ -141,11 +141,45 @@ SKYIG_INLINE VeilSum veil_add(VeilSum sum, VeilSegment at, real from_m, real to_
     return sum;
 }
 
+// The air before a veil far away: exponential in height.
+struct VeilAir {
+    rvec3 molecules_per_m;   // at the eye
+    rvec3 aerosol_per_m;
+    real molecules_height_m;
+    real aerosol_height_m;
+};
+
+SKYIG_INLINE real veil_air_column_m(real rise_m, real along_m, real scale_m) {
+    real scaled = abs(rise_m) / scale_m;
+    real mean = scaled > real(0.0) ? veil_lost(scaled) / scaled : real(1.0);
+    return along_m * exp(-min(rise_m, real(0.0)) / scale_m) * mean;
+}
+
+// Of light from that far, from a place so much higher.
+SKYIG_INLINE rvec3 veil_air_passes(real rise_m, real along_m, VeilAir air) {
+    rvec3 depth = air.molecules_per_m * veil_air_column_m(rise_m, along_m, air.molecules_height_m) +
+                  air.aerosol_per_m * veil_air_column_m(rise_m, along_m, air.aerosol_height_m);
+    return exp(-depth);
+}
+
+// Of light from outside the air, by Rozenberg's air mass.
+SKYIG_INLINE rvec3 veil_all_air_passes(real sine, VeilAir air) {
+    real up = max(sine, real(0.0));
+    real mass = real(1.0) / (up + real(0.025) * exp(real(-11.0) * up));
+    return exp(-(air.molecules_per_m * air.molecules_height_m + air.aerosol_per_m * air.aerosol_height_m) * mass);
+}
+
 // Air and veil together along a ray, smooth light: the veil's light `added` lies behind the air up to its mean distance,
 // whose part `air_passes` gets through, and where it is, that air's own light (`air_cd_m2`, of endless air) is before it.
 SKYIG_INLINE rvec3 veil_in_air(VeilSum sum, rvec3 air_passes, rvec3 air_cd_m2, rvec3 behind_cd_m2) {
     rvec3 kept_away = air_cd_m2 * veil_lost(sum.cut_depth);
     return kept_away + air_passes * (sum.added_cd_m2 - kept_away) + behind_cd_m2 * exp(-sum.cut_depth);
+}
+
+// The air's light before a thing, the more the veil hides the more as the dome has it behind the same veil: of endless air.
+// Else what little both differ would spoil the faint contrast that is left.
+SKYIG_INLINE rvec3 veil_own_air(rvec3 added_cd_m2, rvec3 air_passed, rvec3 air_cd_m2, VeilSum near) {
+    return added_cd_m2 + ((rvec3(real(1.0)) - air_passed) * air_cd_m2 - added_cd_m2) * veil_lost(near.depth);
 }
 
 // Mean distance of what the veil keeps away.

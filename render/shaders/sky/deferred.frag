@@ -22,6 +22,8 @@ uniform vec3 u_veil_lux[2];
 uniform vec3 u_veil_enu[2];      // towards the sources of that light
 uniform vec2 u_veil_slants;
 uniform vec3 u_veil_beyond[2];   // light from past it: sky, ground
+uniform vec4 u_veil_molecules;   // VeilAir: per metre at the eye, scale height
+uniform vec4 u_veil_aerosol;
 
 layout(binding = 0) uniform sampler2D u_colour;
 layout(binding = 1) uniform sampler2D u_depth;
@@ -46,27 +48,14 @@ vec3 light(sampler3D rest, sampler3D haze, vec3 source, vec3 view, vec3 at) {
     return texture(rest, place).rgb + phase * texture(haze, place).rgb;
 }
 
-struct Air {
-    vec3 depth;
-    vec3 endless;            // light of that air without an end
-};
-
-Air air_before(vec3 view, float distance_m) {
-    AerialPlace place = aerial_place(view.z, u_map);
-    float inside_m = distance_m - place.near_m;
-    if (!place.meets_air || !(inside_m > 0.0)) return Air(vec3(0.0), vec3(0.0));
-    float far_m = aerial_far_m(place.sine, u_map);
-    inside_m = min(inside_m, far_m);
-    float slice = aerial_slice(inside_m, far_m);
-    float row = centred(aerial_row(place.sine, u_map), u_table_size.y);
-    vec3 depth = inside_m * texture(u_extinction, vec2(centred(slice, u_depths), row)).rgb;
-    vec3 at = vec3(0.0, row, centred(slice, u_table_size.z));
-    vec3 endless = u_night_cd_m2;
+// Light of air without an end: what the table has so far along the ray.
+vec3 endless(vec3 view, vec3 at) {
+    vec3 sum = u_night_cd_m2;
     if (u_source_count > 0.5)
-        endless += mat3(u_source_rgb[0]) * light(u_rest_0, u_haze_0, u_source_enu[0], view, at);
+        sum += mat3(u_source_rgb[0]) * light(u_rest_0, u_haze_0, u_source_enu[0], view, at);
     if (u_source_count > 1.5)
-        endless += mat3(u_source_rgb[1]) * light(u_rest_1, u_haze_1, u_source_enu[1], view, at);
-    return Air(depth, endless);
+        sum += mat3(u_source_rgb[1]) * light(u_rest_1, u_haze_1, u_source_enu[1], view, at);
+    return sum;
 }
 
 VeilSegment veil_segment(int i) {
@@ -102,19 +91,40 @@ void walk(vec3 view, float distance_m, inout VeilSum near, inout VeilSum whole) 
     }
 }
 
-vec3 under_air(vec3 colour, vec3 view, float distance_m) {
-    Air air = air_before(view, distance_m);
-    vec3 passed = exp(-air.depth);
-    vec3 added = air.endless * (vec3(1.0) - passed);
-    if (u_veil_count < 0.5 || !(distance_m > 0.0)) return colour * passed + added;
+// A thing under clear air shows colour * passed + added; that air is `far_cd_m2` where it has no end.
+vec3 under_veil(vec3 colour, vec3 passed, vec3 added, vec3 far_cd_m2, vec3 view, float distance_m) {
     VeilSum near = VeilSum(0.0, 0.0, vec3(0.0), 0.0);
     VeilSum whole = near;
     walk(view, distance_m, near, whole);
-    vec3 per_m = air.depth / distance_m;
-    vec3 before = veil_in_air(near, exp(-per_m * veil_distance_m(near)), air.endless, added);
-    vec3 without = veil_in_air(whole, exp(-per_m * veil_distance_m(whole)), air.endless,
+    VeilRay ray = VeilRay(view.z, u_veil_radius_m);
+    VeilAir air = VeilAir(u_veil_molecules.xyz, u_veil_aerosol.xyz, u_veil_molecules.w, u_veil_aerosol.w);
+    float near_m = veil_distance_m(near);
+    float whole_m = veil_distance_m(whole);
+    vec3 before = veil_in_air(near, veil_air_passes(veil_rise_m(near_m, ray), near_m, air), far_cd_m2,
+                              veil_own_air(added, passed, far_cd_m2, near));
+    vec3 without = veil_in_air(whole, veil_air_passes(veil_rise_m(whole_m, ray), whole_m, air), far_cd_m2,
                                u_veil_beyond[view.z < 0.0 ? 1 : 0]);
     return colour * passed * exp(-near.depth) + veil_before(before, without, near);
+}
+
+vec3 under_air(vec3 colour, vec3 view, float distance_m) {
+    vec3 passed = vec3(1.0);
+    vec3 added = vec3(0.0);
+    vec3 far_cd_m2 = vec3(0.0);
+    bool veiled = u_veil_count > 0.5 && distance_m > 0.0;
+    AerialPlace place = aerial_place(view.z, u_map);
+    float inside_m = distance_m - place.near_m;
+    if (place.meets_air && inside_m > 0.0) {
+        float far_m = aerial_far_m(place.sine, u_map);
+        inside_m = min(inside_m, far_m);
+        float slice = aerial_slice(inside_m, far_m);
+        float row = centred(aerial_row(place.sine, u_map), u_table_size.y);
+        passed = exp(-inside_m * texture(u_extinction, vec2(centred(slice, u_depths), row)).rgb);
+        added = (vec3(1.0) - passed) * endless(view, vec3(0.0, row, centred(slice, u_table_size.z)));
+        if (veiled) far_cd_m2 = endless(view, vec3(0.0, row, centred(1.0, u_table_size.z)));
+    }
+    if (!veiled) return colour * passed + added;
+    return under_veil(colour, passed, added, far_cd_m2, view, distance_m);
 }
 
 // What is not a number is dark, what is endless very bright.
