@@ -124,36 +124,58 @@ glm::dvec3 DeferredAir::endless_cd_m2(const Horizontal& view) const noexcept {
     return sum;
 }
 
-glm::dvec3 DeferredAir::under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3& direction_enu,
-                                  double distance_m) const noexcept {
+sky::models::AirBetween DeferredAir::clear_between(const glm::dvec3& direction_enu,
+                                                   double distance_m) const noexcept {
     const Horizontal view = horizontal_of(direction_enu);
-    glm::dvec3 passed{1.0};
-    glm::dvec3 added{0.0};
+    sky::models::AirBetween all;
     for (std::size_t i = 0; i < std::max<std::size_t>(source_count_, 1); ++i) {
         const double azimuth_rad = view.azimuth_rad - horizontal_of(sources_[i].direction_enu).azimuth_rad;
         const auto seen = front_.between(view.elevation_rad, azimuth_rad, distance_m, i);
-        passed = seen.passed_rgb;
-        if (i < source_count_) added += sources_[i].rgb * seen.added_rgb;
+        all.passed_rgb = seen.passed_rgb;
+        if (i < source_count_) all.added_rgb += sources_[i].rgb * seen.added_rgb;
     }
-    added += night_cd_m2_ * (1.0 - passed);
-    if (veil_ == nullptr || !(distance_m > 0.0)) return rgb_cd_m2 * passed + added;
-    const glm::dvec3 ray_enu = direction_of(view);
-    const bool down = ray_enu.z < 0.0;
-    const auto meets_m = shaders64::veil_below_m(veil_->segments().front().low_m,
-                                                 {ray_enu.z, veil_->eye_radius_m()});
-    const double end_m = down && meets_m.y > meets_m.x ? meets_m.x : fog::Veil::kEndless_m;
-    const fog::Veil::Both sums = veil_->along(ray_enu, distance_m, end_m);
-    const glm::dvec3 endless = endless_cd_m2(view);
-    const auto in_air = [&](const shaders64::VeilSum& sum, const glm::dvec3& behind) {
-        const double veil_m = shaders64::veil_distance_m(sum);
-        const double rise_m = shaders64::veil_rise_m(veil_m, {ray_enu.z, veil_->eye_radius_m()});
-        return shaders64::veil_in_air(sum, shaders64::veil_air_passes(rise_m, veil_m, front_air_),
-                                      endless, behind);
-    };
+    all.added_rgb += night_cd_m2_ * (1.0 - all.passed_rgb);
+    return all;
+}
+
+fog::Veil::Both DeferredAir::veil_along(const glm::dvec3& ray_enu, double distance_m) const noexcept {
+    const shaders64::VeilRay ray{ray_enu.z, veil_->eye_radius_m()};
+    const auto ground_m = shaders64::veil_below_m(veil_->segments().front().low_m, ray);
+    const bool meets = ray_enu.z < 0.0 && ground_m.y > ground_m.x;
+    return veil_->along(ray_enu, distance_m, meets ? ground_m.x : fog::Veil::kEndless_m);
+}
+
+glm::dvec3 DeferredAir::veil_in_air(const shaders64::VeilSum& sum, const glm::dvec3& ray_enu,
+                                    const glm::dvec3& endless_cd_m2,
+                                    const glm::dvec3& behind_cd_m2) const noexcept {
+    const double veil_m = shaders64::veil_distance_m(sum);
+    const double rise_m = shaders64::veil_rise_m(veil_m, {ray_enu.z, veil_->eye_radius_m()});
+    return shaders64::veil_in_air(sum, shaders64::veil_air_passes(rise_m, veil_m, front_air_), endless_cd_m2,
+                                  behind_cd_m2);
+}
+
+sky::models::AirBetween DeferredAir::between(const glm::dvec3& direction_enu,
+                                             double distance_m) const noexcept {
+    const sky::models::AirBetween air = clear_between(direction_enu, distance_m);
+    if (veil_ == nullptr || !(distance_m > 0.0)) return air;
+    const Horizontal view = horizontal_of(direction_enu);
+    const shaders64::VeilSum near = veil_along(direction_enu, distance_m).near;
+    return {air.passed_rgb * std::exp(-near.cut_depth),
+            veil_in_air(near, direction_enu, endless_cd_m2(view), air.added_rgb)};
+}
+
+glm::dvec3 DeferredAir::under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3& direction_enu,
+                                  double distance_m) const noexcept {
+    const sky::models::AirBetween air = clear_between(direction_enu, distance_m);
+    if (veil_ == nullptr || !(distance_m > 0.0)) return rgb_cd_m2 * air.passed_rgb + air.added_rgb;
+    const glm::dvec3 endless = endless_cd_m2(horizontal_of(direction_enu));
+    const fog::Veil::Both sums = veil_along(direction_enu, distance_m);
     const glm::dvec3 before =
-        in_air(sums.near, shaders64::veil_own_air(added, passed, endless, sums.near));
-    const glm::dvec3 without = in_air(sums.whole, beyond_veil_cd_m2_[down ? 1 : 0]);
-    return rgb_cd_m2 * passed * std::exp(-sums.near.depth) +
+        veil_in_air(sums.near, direction_enu, endless,
+                    shaders64::veil_own_air(air.added_rgb, air.passed_rgb, endless, sums.near));
+    const glm::dvec3 without =
+        veil_in_air(sums.whole, direction_enu, endless, beyond_veil_cd_m2_[direction_enu.z < 0.0 ? 1 : 0]);
+    return rgb_cd_m2 * air.passed_rgb * std::exp(-sums.near.depth) +
            shaders64::veil_before(before, without, sums.near);
 }
 

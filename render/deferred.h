@@ -59,6 +59,10 @@ class DeferredAir {
     /// Rises whenever the table in use is replaced.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
+    /// What the air, and fog in it, do to smooth light on its way from there, to the sum of all lights. \param
+    /// direction_enu  unit vector
+    [[nodiscard]] sky::models::AirBetween between(const glm::dvec3& direction_enu,
+                                                  double distance_m) const noexcept;
     /// What the shader makes of a thing, in double. \param direction_enu  unit vector
     [[nodiscard]] glm::dvec3 under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3& direction_enu,
                                        double distance_m) const noexcept;
@@ -79,6 +83,12 @@ class DeferredAir {
     [[nodiscard]] static bool same_bodies(const Made& a, const Made& b) noexcept;
     [[nodiscard]] static double largest_step_rad(const Made& a, const Made& b) noexcept;
     void begin(const Made& wanted, const LightTables& tables);
+    [[nodiscard]] sky::models::AirBetween clear_between(const glm::dvec3& direction_enu,
+                                                        double distance_m) const noexcept;
+    [[nodiscard]] fog::Veil::Both veil_along(const glm::dvec3& ray_enu, double distance_m) const noexcept;
+    [[nodiscard]] glm::dvec3 veil_in_air(const shaders64::VeilSum& sum, const glm::dvec3& ray_enu,
+                                         const glm::dvec3& endless_cd_m2,
+                                         const glm::dvec3& behind_cd_m2) const noexcept;
     [[nodiscard]] glm::dvec3 endless_cd_m2(const Horizontal& view) const noexcept;
     void tell_veil(const SkyLight& light) noexcept;
     void tell_sources(const Scene& scene, const Plan& plan, const SkyLight& light) noexcept;

@@ -59,8 +59,8 @@ DeferredPass::DeferredPass()
     program_.set(program_.uniform("u_depths"), static_cast<float>(Table::kDepths));
 }
 
-void DeferredPass::upload() {
-    const Table& table = air_.table();
+void DeferredPass::upload(const DeferredAir& air) {
+    const Table& table = air.table();
     extinction_.update(floats(table.extinction()));
     for (std::size_t i = 0; i < table.light_count(); ++i) {
         rest_[i].update(floats(table.colours(i).rest));
@@ -72,12 +72,12 @@ void DeferredPass::upload() {
     for (std::size_t i = 0; i < values.size(); ++i)
         program_.set(map_[i], static_cast<float>(values[i]));
     program_.set(haze_g_, static_cast<float>(table.haze_g()));
-    uploaded_ = air_.revision();
+    uploaded_ = air.revision();
 }
 
 // A column a segment, as veil_segment() of the shader reads it.
-void DeferredPass::upload_veil() {
-    const fog::Veil* veil = air_.veil();
+void DeferredPass::upload_veil(const DeferredAir& air) {
+    const fog::Veil* veil = air.veil();
     program_.set(veil_.count, veil != nullptr ? static_cast<float>(veil->segments().size()) : 0.0F);
     if (veil == nullptr) return;
     std::size_t column = 0;
@@ -99,28 +99,26 @@ void DeferredPass::upload_veil() {
     const shaders64::VeilBeams beams = veil->beams(glm::dvec3{0.0, 0.0, 1.0});
     program_.set(veil_.radius, static_cast<float>(veil->eye_radius_m()));
     program_.set(veil_.slants, glm::vec2{glm::dvec2{beams.first_slant, beams.second_slant}});
-    const shaders64::VeilAir& air = air_.air_before_veil();
-    program_.set(veil_.molecules, glm::vec4{glm::dvec4{air.molecules_per_m, air.molecules_height_m}});
-    program_.set(veil_.aerosol, glm::vec4{glm::dvec4{air.aerosol_per_m, air.aerosol_height_m}});
+    const shaders64::VeilAir& front = air.air_before_veil();
+    program_.set(veil_.molecules, glm::vec4{glm::dvec4{front.molecules_per_m, front.molecules_height_m}});
+    program_.set(veil_.aerosol, glm::vec4{glm::dvec4{front.aerosol_per_m, front.aerosol_height_m}});
     for (std::size_t i = 0; i < 2; ++i) {
         program_.set(veil_.lux[i], glm::vec3{veil->sources().beams[i].lux});
         program_.set(veil_.direction[i], glm::vec3{veil->sources().beams[i].direction_enu});
-        program_.set(veil_.beyond[i], glm::vec3{air_.beyond_veil_cd_m2(i == 1)});
+        program_.set(veil_.beyond[i], glm::vec3{air.beyond_veil_cd_m2(i == 1)});
     }
 }
 
-void DeferredPass::prepare(const Scene& scene, const Plan& plan, const LightTables& tables,
-                           const SkyLight& light, bool dither) {
-    air_.update(scene, plan, tables, light);
-    if (uploaded_ != air_.revision()) upload();
-    for (std::size_t i = 0; i < air_.source_count(); ++i) {
-        program_.set(sources_[i].direction, glm::vec3{air_.source(i).direction_enu});
-        program_.set(sources_[i].rgb, glm::mat4{glm::dmat4{air_.source(i).rgb}});
+void DeferredPass::prepare(const DeferredAir& air, bool dither) {
+    if (uploaded_ != air.revision()) upload(air);
+    for (std::size_t i = 0; i < air.source_count(); ++i) {
+        program_.set(sources_[i].direction, glm::vec3{air.source(i).direction_enu});
+        program_.set(sources_[i].rgb, glm::mat4{glm::dmat4{air.source(i).rgb}});
     }
-    program_.set(source_count_, static_cast<float>(air_.source_count()));
-    program_.set(night_, glm::vec3{air_.night_cd_m2()});
+    program_.set(source_count_, static_cast<float>(air.source_count()));
+    program_.set(night_, glm::vec3{air.night_cd_m2()});
     program_.set(dither_, dither ? 1.0F : 0.0F);
-    upload_veil();
+    upload_veil(air);
 }
 
 void DeferredPass::draw(const ChannelView& view, const DeferredInput& input,

@@ -18,7 +18,7 @@ class DomeBend;
 struct DomeSize;
 
 /// When a pass costs.
-enum class Cost { kNewAir, kNewTable, kChannel };
+enum class Cost { kNewAir, kNewTable, kFrame, kChannel };
 [[nodiscard]] std::string_view cost_name(Cost cost) noexcept;
 
 /// Rows and columns of what a pass computes; 0 where it has none.
@@ -110,6 +110,10 @@ struct Plan {
 
 /// Decides on the veil of obscurants. \param segments  of fog::Veil
 void plan_veil(Plan& plan, const Scene& scene, std::size_t segments) noexcept;
+
+/// Decides on the cloud maps. \param map_size  texels on the side of a half; \param near_size  likewise \param
+/// near_shown  whether clouds may stand round the eye
+void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bool near_shown) noexcept;
 
 /// Decides on the waves of the sea, drawn over `resolution` of the dome's quads. \param waves  that a pixel
 /// resolves below the eye \param lit  whether Sun or Moon light the air over a sea

@@ -94,6 +94,8 @@ struct Ground {
     std::optional<double> albedo;
     /// Part of the land that lies under snow, 0..1.
     double snow = 0.0;
+    /// How wet the rest of the land is by rain, 0..1: darker, and with a film of water that mirrors the sky.
+    double wet = 0.0;
     /// Roughens the sea; at about 10 m, where it blows from clockwise from true north.
     double wind_m_s = 0.0;
     double wind_from_rad = 0.0;

@@ -26,16 +26,24 @@ glm::vec3 xyz_of(const LitAir& lit, double above_horizon_rad, double azimuth_rad
     return lit.scale_xyz * xyz;
 }
 
+// Of the angle between a ray and the ground where it meets it.
+double sine_from_ground(const SkyLight& light, double straight_rad) {
+    const double level = std::cos(straight_rad) * (1.0 + std::max(light.eye_height_m, 0.0) / kEarthRadius_m);
+    return std::sqrt(std::max(0.0, (1.0 - level) * (1.0 + level)));
+}
+
+// Waves lift what a level mirror would show of the horizon.
+double lifted_mirror_rad(double up, double slope_variance) {
+    return std::asin(std::min(1.0, std::hypot(up, std::sqrt(slope_variance))));
+}
+
 // Of the surface under the dark sky, where the straight ray meets it.
 glm::vec3 dark_ground_cd_m2(const SkyLight& light, double straight_rad, double azimuth_rad) {
     const auto diffuse = static_cast<float>(light.ground_albedo / std::numbers::pi);
     const glm::vec3 scattered = diffuse * light.night->ground_rgb_lux();
     if (light.sea == nullptr) return scattered;
-    const double level = std::cos(straight_rad) * (1.0 + std::max(light.eye_height_m, 0.0) / kEarthRadius_m);
-    const double up = std::sqrt(std::max(0.0, (1.0 - level) * (1.0 + level)));
-    // Waves lift what a level mirror would show of the horizon.
-    const double mirrored_rad =
-        std::asin(std::min(1.0, std::hypot(up, std::sqrt(light.sea->variance().total()))));
+    const double up = sine_from_ground(light, straight_rad);
+    const double mirrored_rad = lifted_mirror_rad(up, light.sea->variance().total());
     return scattered + static_cast<float>(light.sea->mean_reflectance(up)) *
                            light.night->sky_rgb(mirrored_rad - light.straight_horizon_rad, azimuth_rad);
 }
@@ -48,6 +56,31 @@ glm::vec3 dark_sky(const SkyLight& light, double straight_rad, double azimuth_ra
                                        : light.night->sky_rgb(above_rad, azimuth_rad));
 }
 
+// What the air leaves of the ground's light.
+float passed_from_ground(const SkyLight& light, double elevation_rad) {
+    const double away_m = std::max(light.eye_height_m, 0.0) / std::max(-std::sin(elevation_rad), 1e-4);
+    return static_cast<float>(std::exp(-light.near_extinction_per_m * away_m));
+}
+
+// Of the air alike all round; the ground fades into it.
+glm::vec3 flash_cd_m2(const SkyLight& light, double elevation_rad, bool ground) {
+    if (!ground || light.flash == cloud::FlashLight{}) return light.flash.sky_cd_m2;
+    const float passed = passed_from_ground(light, elevation_rad);
+    const auto diffuse = static_cast<float>(light.ground_albedo / std::numbers::pi);
+    return passed * diffuse * light.flash.ground_lux + (1.0F - passed) * light.flash.sky_cd_m2;
+}
+
+// Of the sky, in water over ground that is not level everywhere.
+glm::vec3 film_cd_m2(const SkyLight& light, double elevation_rad, double azimuth_rad) {
+    constexpr double kSlopeVariance = 0.01;
+    const double up = sine_from_ground(light, light.straight_elevation_rad(elevation_rad));
+    const double mirrored_rad = lifted_mirror_rad(up, kSlopeVariance);
+    // Fresnel's for water (Schlick 1994).
+    const double reflectance = 0.02 + 0.98 * std::pow(1.0 - std::sin(mirrored_rad), 5.0);
+    return static_cast<float>(light.film * reflectance) * passed_from_ground(light, elevation_rad) *
+           light.smooth_rgb_cd_m2(mirrored_rad, azimuth_rad, Side::kSky);
+}
+
 }  // namespace
 
 LitBelt lit_belt(const Scene& scene, const night::MilkyWayMap& map, double night_share) noexcept {
@@ -56,27 +89,25 @@ LitBelt lit_belt(const Scene& scene, const night::MilkyWayMap& map, double night
 }
 
 double SkyLight::straight_elevation_rad(double elevation_rad) const noexcept {
-    if (elevation_rad >= 0.0 || horizon_elevation_rad >= 0.0) return elevation_rad;
-    if (elevation_rad >= horizon_elevation_rad)
-        return elevation_rad * (straight_horizon_rad / horizon_elevation_rad);
-    const double shift_rad = straight_horizon_rad - horizon_elevation_rad;
-    return elevation_rad +
-           shift_rad * std::tan(horizon_elevation_rad) * std::cos(elevation_rad) / std::sin(elevation_rad);
+    return render::straight_elevation_rad(elevation_rad, horizon_elevation_rad, straight_horizon_rad);
 }
 
 glm::vec3 SkyLight::smooth_rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept {
     const double straight_rad = straight_elevation_rad(elevation_rad);
     const bool ground =
         side == Side::kGround || (side == Side::kByElevation && elevation_rad < horizon_elevation_rad);
-    const glm::vec3 clear = clear_rgb_cd_m2(straight_rad, azimuth_rad, ground);
+    const glm::vec3 clear = clear_rgb_cd_m2(straight_rad, elevation_rad, azimuth_rad, ground);
     return veil != nullptr ? veiled(clear, straight_rad, azimuth_rad, ground) : clear;
 }
 
-glm::vec3 SkyLight::clear_rgb_cd_m2(double straight_rad, double azimuth_rad, bool ground) const noexcept {
+glm::vec3 SkyLight::clear_rgb_cd_m2(double straight_rad, double elevation_rad, double azimuth_rad,
+                                    bool ground) const noexcept {
     const double above_rad = straight_rad - straight_horizon_rad;
-    return rec709_from_xyz(xyz_of(sun, above_rad, azimuth_rad, ground) +
-                           xyz_of(moon, above_rad, azimuth_rad, ground)) +
-           dark_sky(*this, straight_rad, azimuth_rad, ground);
+    const glm::vec3 rgb = rec709_from_xyz(xyz_of(sun, above_rad, azimuth_rad, ground) +
+                                          xyz_of(moon, above_rad, azimuth_rad, ground)) +
+                          dark_sky(*this, straight_rad, azimuth_rad, ground) +
+                          flash_cd_m2(*this, elevation_rad, ground);
+    return ground && film > 0.0 ? rgb + film_cd_m2(*this, elevation_rad, azimuth_rad) : rgb;
 }
 
 // Of the straight ray: the ground's, or past all veils.
@@ -114,7 +145,7 @@ glm::vec3 SkyLight::veiled(const glm::vec3& clear_cd_m2, double straight_rad, do
     if (!ground) {
         endless /= 1.0 - shaders64::veil_all_air_passes(sine, front_air);
     } else if ((1.0 - passes.z) * shaders64::veil_lost(sum.cut_depth) > kSeenThrough) {
-        endless = glm::dvec3{clear_rgb_cd_m2(straight_horizon_rad, azimuth_rad, false)};
+        endless = glm::dvec3{clear_rgb_cd_m2(straight_horizon_rad, horizon_elevation_rad, azimuth_rad, false)};
     }
     return glm::vec3{shaders64::veil_in_air(sum, passes, endless, behind)};
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "render/cloud/lightning.h"
 #include "render/fog/veil.h"
 #include "render/geometry.h"
 #include "render/night/milky_way_map.h"
@@ -80,6 +81,12 @@ struct SkyLight {
     std::uint64_t veil_revision = 0;
     /// Before a veil far away.
     shaders64::VeilAir front_air{};
+    /// What lightning adds to everything.
+    cloud::FlashLight flash;
+    /// Part of the land under a film of water that mirrors the sky, 0..1.
+    double film = 0.0;
+    /// Of the air between the eye and what flashes and films do to the ground.
+    double near_extinction_per_m = 0.0;
 
     /// Elevation of the straight ray that stands in the tables for the curved one seen at `elevation_rad`: it
     /// comes as near to the ground. The same above the level; on the horizon the straight horizon (0.2 deg
@@ -112,7 +119,7 @@ struct SkyLight {
     static constexpr double kBeltEdge = 0.01;
 
   private:
-    [[nodiscard]] glm::vec3 clear_rgb_cd_m2(double straight_rad, double azimuth_rad,
+    [[nodiscard]] glm::vec3 clear_rgb_cd_m2(double straight_rad, double elevation_rad, double azimuth_rad,
                                             bool ground) const noexcept;
     [[nodiscard]] shaders64::VeilSum veil_sum(double straight_rad, double azimuth_rad,
                                             bool ground) const noexcept;

@@ -44,6 +44,30 @@ struct WeatherArea {
     friend bool operator==(const WeatherArea&, const WeatherArea&) = default;
 };
 
+/// How the model kLayer draws a layer, in the terms of its seed: density is the sum of scrolled tiles of
+/// noise.
+struct CloudLook {
+    struct Tile {
+        /// How many fit along 131,072 m, east; 1..4096. At 1 a tile's finest feature is 3 km, at 32 100 m.
+        int times = 8;
+        /// In addition to the layer's drift, by its age, east and north.
+        glm::dvec2 scroll_m_s{0.0};
+        /// Of its values about their mean, -0.5..0.5.
+        double weight = 1.0;
+
+        friend bool operator==(const Tile&, const Tile&) = default;
+    };
+    std::array<Tile, 3> tiles{{{2, {}, 0.5}, {8, {}, 1.0}, {32, {}, 0.4}}};
+    /// Added to the sum, besides what the layer's coverage adds; full extinction is reached at a sum of 1.
+    double density_offset = 0.0;
+    /// How strongly cloud towards the light dims it; 1 as measured on slabs.
+    double self_shadow = 1.0;
+    /// Times its light, linear Rec.709.
+    glm::dvec3 colour{1.0};
+
+    friend bool operator==(const CloudLook&, const CloudLook&) = default;
+};
+
 /// One layer of cloud. Density is full from base to top and falls linearly to nothing over the bands outside.
 struct CloudLayer {
     CloudGenus genus = CloudGenus::kCumulus;
@@ -71,6 +95,8 @@ struct CloudLayer {
     std::uint32_t seed = 0;
     /// Everywhere, if none.
     std::optional<WeatherArea> area{};
+    /// Of the model kLayer; as its genus, if none.
+    std::optional<CloudLook> look;
 
     friend bool operator==(const CloudLayer&, const CloudLayer&) = default;
 };

@@ -99,9 +99,11 @@ std::vector<CaseSet> read_scenes(const std::filesystem::path& path) {
     for (std::size_t row = 0; row < table.rows(); ++row) {
         render::Air air;
         air.visibility_m = table.number(row, "visibility_m");
-        if (sets.empty() || air.visibility_m != before_m)
-            sets.push_back(
-                {fmt::format("visibility {:g} km", 1e-3 * air.visibility_m), sky::air_model(air), {}});
+        if (sets.empty() || air.visibility_m != before_m) {
+            sky::AirModel model = sky::air_model(air);
+            model.refractivity = 0.0;  // as the reference solver has it
+            sets.push_back({fmt::format("visibility {:g} km", 1e-3 * air.visibility_m), model, {}});
+        }
         before_m = air.visibility_m;
         add_row(table, row, sets.back().cases);
     }

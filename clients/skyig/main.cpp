@@ -5,6 +5,8 @@
 #include <variant>
 
 #include "clients/skyig/bench.h"
+#include "clients/skyig/channels.h"
+#include "clients/skyig/cloud.h"
 #include "clients/skyig/decode.h"
 #include "clients/skyig/ephem.h"
 #include "clients/skyig/host.h"
@@ -29,8 +31,11 @@ int run(int argc, char** argv) {
     if (const auto* host = std::get_if<HostOptions>(&invocation.options)) return run_host(*host);
     if (const auto* shot = std::get_if<ShotOptions>(&invocation.options)) return run_shot(*shot);
     if (const auto* plan = std::get_if<PlanOptions>(&invocation.options)) return run_plan(*plan);
+    if (const auto* channels = std::get_if<ChannelsOptions>(&invocation.options))
+        return run_channels(*channels);
     if (const auto* bench = std::get_if<BenchOptions>(&invocation.options)) return run_bench(*bench);
     if (const auto* ephem = std::get_if<EphemOptions>(&invocation.options)) return run_ephem(*ephem);
+    if (const auto* cloud = std::get_if<CloudOptions>(&invocation.options)) return run_cloud(*cloud);
     if (const auto* decode = std::get_if<DecodeOptions>(&invocation.options)) return run_decode(*decode);
     if (const auto* metar = std::get_if<MetarOptions>(&invocation.options)) return run_metar(*metar);
     if (const auto* replay = std::get_if<ReplayOptions>(&invocation.options)) return run_replay(*replay);

@@ -62,38 +62,6 @@ Lanes lanes_of(const Spectrum& spectrum) {
     return lanes;
 }
 
-struct ColumnSum {
-    double molecules_m = 0.0;
-    double aerosol_m = 0.0;
-    double ozone_m = 0.0;
-};
-
-// From `height_m` along `cosine` >= 0 for `length_m`; nodes crowd where the air is densest, at the start.
-void add_columns(const AirData& data, double height_m, double cosine, double length_m, ColumnSum& sum) {
-    static const auto rule = gauss_legendre<40>();
-    for (std::size_t i = 0; i < rule.node.size(); ++i) {
-        const double s = 0.5 + 0.5 * rule.node[i];
-        const double weight_m = rule.weight[i] * s * length_m;
-        const Densities d = data.densities(data.shell.height_along_m(height_m, cosine, length_m * s * s));
-        sum.molecules_m += weight_m * static_cast<double>(d.molecules);
-        sum.aerosol_m += weight_m * static_cast<double>(d.aerosol);
-        sum.ozone_m += weight_m * static_cast<double>(d.ozone);
-    }
-}
-
-ColumnSum columns_to_top(const AirData& data, double height_m, double cosine) {
-    ColumnSum sum;
-    if (cosine >= 0.0) {
-        add_columns(data, height_m, cosine, data.shell.distance_to_top_m(height_m, cosine), sum);
-        return sum;
-    }
-    const double low_m = -(data.shell.ground_radius_m + height_m) * cosine;
-    const double low_height_m = std::max(0.0, data.shell.height_along_m(height_m, cosine, low_m));
-    add_columns(data, low_height_m, 0.0, low_m, sum);
-    add_columns(data, low_height_m, 0.0, data.shell.distance_to_top_m(low_height_m, 0.0), sum);
-    return sum;
-}
-
 }  // namespace
 
 Densities AirData::densities(double height_m) const noexcept {
@@ -107,8 +75,20 @@ Densities AirData::densities(double height_m) const noexcept {
     return d;
 }
 
-double AirData::column_row(double height_m) const noexcept {
+ColumnTable AirData::source_table() const noexcept {
+    const double sine = source_dip_sine.front();
+    return {source_columns.data(), kColumnRows + 1, kColumnAngles, static_cast<float>(sine),
+            static_cast<float>(std::sqrt((1.0 - sine) * (1.0 + sine)))};
+}
+
+double AirData::seen_row(double height_m) const noexcept {
     return std::sqrt(std::clamp(height_m / shell.top_height_m, 0.0, 1.0)) * (kColumnRows - 1);
+}
+
+double AirData::dip_sine(const std::vector<double>& sines, double height_m) const noexcept {
+    const double row = seen_row(height_m);
+    const auto low = std::min(static_cast<std::size_t>(row), std::size_t{kColumnRows - 2});
+    return sines[low] + (row - static_cast<double>(low)) * (sines[low + 1] - sines[low]);
 }
 
 double AirData::moment_row(double height_m) const noexcept {
@@ -165,25 +145,6 @@ void build_medium(const AirModel& model, AirData& data) {
 void keep_forward_peak(AirData& data) noexcept {
     data.medium.aerosol_diffuse_extinction = data.medium.aerosol_extinction;
     data.medium.aerosol_diffuse_scattering = data.medium.aerosol_scattering;
-}
-
-void build_columns(AirData& data) {
-    constexpr double kLeastColumnM = 1e-3;  // keeps the logarithm finite where a constituent has ended
-    data.columns.assign(std::size_t{kColumnRows} * kColumnAngles * 4, 0.0F);
-    float* out = data.columns.data();
-    for (int row = 0; row < kColumnRows; ++row) {
-        const double part = static_cast<double>(row) / (kColumnRows - 1);
-        const double height_m = data.shell.top_height_m * part * part;
-        const double dip_sine = data.shell.dip_sine(height_m);
-        for (int angle = 0; angle < kColumnAngles; ++angle, out += 4) {
-            const double place = static_cast<double>(angle) / (kColumnAngles - 1);
-            const double cosine = std::min(1.0, (1.0 + dip_sine) * place * place - dip_sine);
-            const ColumnSum sum = columns_to_top(data, height_m, cosine);
-            out[0] = static_cast<float>(std::log(std::max(sum.molecules_m, kLeastColumnM)));
-            out[1] = static_cast<float>(std::log(std::max(sum.aerosol_m, kLeastColumnM)));
-            out[2] = static_cast<float>(std::log(std::max(sum.ozone_m, kLeastColumnM)));
-        }
-    }
 }
 
 }  // namespace skyig::render::sky

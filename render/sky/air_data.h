@@ -19,6 +19,7 @@ struct Densities {
 /// Node counts of the tables and quadrature of their building.
 inline constexpr int kColumnRows = 64;
 inline constexpr int kColumnAngles = 128;
+inline constexpr std::size_t kColumnFloats = 4;
 inline constexpr int kMomentRows = 16;
 inline constexpr std::size_t kMomentNodes = std::size_t{kMomentRows} * std::size_t{kSineNodes};
 inline constexpr int kProfileCells = 480;
@@ -28,7 +29,13 @@ struct AirData {
     Shell shell;
     /// ln density of the molecules at even heights: cheaper than a search for the knot.
     std::vector<float> log_molecules;
-    std::vector<float> columns;
+    /// Columns of light as it arrives, and of the same light by where its source stands without air: there
+    /// the first row is of level ground, the others are of heights.
+    std::vector<float> seen_columns;
+    std::vector<float> source_columns;
+    /// Sine of the horizon's dip, by row of heights: as seen, and of a source that is seen there.
+    std::vector<double> seen_dip_sine;
+    std::vector<double> source_dip_sine;
     std::vector<float> moments;
     std::vector<float> log_ground;
     /// Sky over the sea (sea_sky.h); none over land.
@@ -36,14 +43,18 @@ struct AirData {
     AirModel model;
 
     [[nodiscard]] Densities densities(double height_m) const noexcept;
-    [[nodiscard]] ColumnTable column_table() const noexcept {
-        return {columns.data(), kColumnRows, kColumnAngles};
+    [[nodiscard]] ColumnTable seen_table() const noexcept {
+        return {seen_columns.data(), kColumnRows, kColumnAngles, 0.0F, 1.0F};
     }
+    [[nodiscard]] ColumnTable source_table() const noexcept;
     [[nodiscard]] MomentTable moment_table() const noexcept {
         return {moments.data(), log_ground.data(), kMomentRows, kSineNodes};
     }
     /// Places in the tables, in nodes.
-    [[nodiscard]] double column_row(double height_m) const noexcept;
+    [[nodiscard]] double seen_row(double height_m) const noexcept;
+    [[nodiscard]] double source_row(double height_m) const noexcept { return 1.0 + seen_row(height_m); }
+    /// One of the two lists of sines.
+    [[nodiscard]] double dip_sine(const std::vector<double>& sines, double height_m) const noexcept;
     [[nodiscard]] double moment_row(double height_m) const noexcept;
     [[nodiscard]] double moment_row_height_m(int row) const noexcept;
 };

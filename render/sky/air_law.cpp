@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/sky/air_model.h"
+#include "render/sky/standard_air.h"
 
 namespace skyig::render::sky {
 namespace {
@@ -110,6 +111,7 @@ LawOf<SceneOptics> air_law(const Air& air) noexcept {
     const double per_m = pressure_hpa / 1013.25 / column_above_m(shape.molecules, 0.0);
     double aerosol_per_m = 0.0;
     if (air.model_enabled) {
+        shape.refractivity = kSeaLevelRefractivity * pressure_hpa / 1013.25;
         aerosol_per_m = std::max(0.0, -std::log(contrast) / visibility_m - per_m * rayleigh_depth(550.0));
         // Mist is shallow, haze fills the boundary layer: this holds the aerosol's vertical depth below about
         // 0.9.

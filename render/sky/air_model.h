@@ -19,7 +19,8 @@ inline constexpr double kFirstWavelengthNm = 390.0;
 inline constexpr double kWavelengthStepNm = 21.0;
 
 /// Spherical shell of molecules, aerosol and ozone over a Lambertian ground. Coefficients are per metre at
-/// height 0, except ozone's, which is at the peak of its triangular layer. No refraction, no polarisation.
+/// height 0, except ozone's, which is at the peak of its triangular layer. No polarisation; the source's
+/// light is bent on its way in if `refractivity` says so, views are straight.
 struct AirModel : AirShape {
     Spectrum wavelength_nm{};
     Spectrum rayleigh_per_m{};
@@ -65,6 +66,7 @@ inline constexpr double kMaxVisibilityM = 250.0e3;
 /// 6371 km. `model_enabled == false`: molecules and ozone only. Any input is legal: what is not finite counts
 /// as the default, what is out of range is clamped (visibility as above, contrast 0.01..0.2, pressure
 /// 850..1085 hPa), and the model depends continuously on each number. Temperature and humidity do not enter.
+/// The standard atmosphere's refraction, scaled with the pressure; none if the model is switched off.
 ///
 /// Land of another albedo has the same colour; snow is nearly white (albedo 0.85). The sea sends back what
 /// its surface reflects of a day's light (0.05) and blue light from below: open ocean, remote-sensing

@@ -21,6 +21,9 @@ struct DensityProfile {
 struct AirShape {
     double ground_radius_m = 6371.0e3;
     double top_height_m = 120.0e3;
+    /// Refractive index less one at height 0, falling as in the standard atmosphere: what bends the light of
+    /// a source on its way in. 0: it comes straight.
+    double refractivity = 0.0;
     DensityProfile molecules;
     double aerosol_scale_height_m = 1200.0;
     /// Cornette-Shanks parameter (not the mean cosine), the same at all wavelengths.

@@ -82,9 +82,11 @@ Spectrum AirTables::transmittance(double height_m, double elevation_rad) const n
         sine = -std::sqrt((1.0 - closest) * (1.0 + closest));
         inside_m = shell.top_height_m;
     }
-    const double dip_sine = shell.dip_sine(inside_m);
+    // The curved ray that comes as near to the ground.
+    const double dip_sine = data_->dip_sine(data_->seen_dip_sine, inside_m);
+    if (sine < 0.0 && dip_sine > 0.0) sine *= dip_sine / shell.dip_sine(inside_m);
     Lanes lanes{};
-    kernels().transmit(data_->medium, data_->column_table(), static_cast<float>(data_->column_row(inside_m)),
+    kernels().transmit(data_->medium, data_->seen_table(), static_cast<float>(data_->seen_row(inside_m)),
                        static_cast<float>(sine + dip_sine), static_cast<float>(dip_sine), lanes);
     for (float& value : lanes.v)
         value *= static_cast<float>(visible);

@@ -17,19 +17,23 @@ struct alignas(64) Lanes {
     float v[kLanes];
 };
 
-/// Columns of molecules, aerosol and ozone towards a source, as equivalent metres at the reference density.
+/// Columns of molecules, aerosol and ozone towards a source, as equivalent metres at the reference density,
+/// and a factor on its light.
 struct Columns {
     float molecules_m;
     float aerosol_m;
     float ozone_m;
+    float gain;
 };
 
-/// Logarithms of columns over height (rows, quadratic) and over sin(elevation) + sin(dip) (quadratic), four
-/// floats each.
+/// Logarithms of columns and gain over height (rows, quadratic) and over sin(elevation) + sin(dip)
+/// (quadratic), four floats each. In a table for sources row 0 is of level ground: its gain makes irradiance.
 struct ColumnTable {
     const float* log_m;
     int rows;
     int angles;
+    float ground_dip_sine;
+    float ground_dip_cosine;
 };
 
 /// Light of one or more orders over height (rows, cubic) and sine of the source's elevation (see
@@ -110,6 +114,8 @@ struct Kernels {
     /// as 0.
     void (*transmit)(const Medium& medium, const ColumnTable& columns, float row, float above_sine,
                      float dip_sine, Lanes& transmittance);
+    /// Adds `weight[k]` times the light to `moments[k]`, kMoments of each.
+    void (*add_moments)(const float* weight, const Lanes& light, Lanes* moments);
     /// x -> exp(x), relative error < 2e-7 in [-87, 88], clamped outside.
     void (*exponential)(Lanes& x);
 };

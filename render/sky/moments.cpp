@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,8 @@ constexpr std::size_t kHalfSines = 8;  // view directions on either side of the 
 constexpr int kFirstAzimuths = 6;
 constexpr int kLaterAzimuths = 4;
 constexpr int kGatherSteps = 16;
+// In twilight light falls by a factor of ten over some 200 km of a level ray.
+constexpr int kTwilightSteps = 32;
 constexpr float kLeastMean = 1e-30F;
 
 using NodeMoments = std::array<Lanes, kMoments>;
@@ -54,14 +57,21 @@ std::array<ViewSine, 2 * kHalfSines> view_sines(double dip_sine) {
 constexpr std::array<double, kMoments> kMomentFactor = {
     1.0, 3.0, 3.0, 5.0, 15.0, 3.75, 7.0, 2.625, 26.25, 4.375, 9.0, 5.625, 2.8125, 39.375, 4.921875};
 
-void add_radiance(const ViewSine& view, double x, double weight, const Lanes& light, NodeMoments& moments) {
+// One view direction: its level part towards the source's azimuth, and what its light adds to each moment.
+struct ViewAzimuth {
+    double x = 0.0;
+    std::array<float, kMoments> weight{};
+};
+
+ViewAzimuth view_azimuth(const ViewSine& view, int azimuth, int azimuths) {
+    ViewAzimuth made;
+    made.x = std::sqrt(std::max(0.0, 1.0 - view.sine * view.sine)) *
+             std::cos(std::numbers::pi * (azimuth + 0.5) / azimuths);
     double y[kMoments];
-    angular_functions(view.sine, x, y);
-    for (std::size_t k = 0; k < kMoments; ++k) {
-        const auto w = static_cast<float>(weight * kMomentFactor[k] * y[k]);
-        for (int i = 0; i < kLanes; ++i)
-            moments[k].v[i] += w * light.v[i];
-    }
+    angular_functions(view.sine, made.x, y);
+    for (std::size_t k = 0; k < kMoments; ++k)
+        made.weight[k] = static_cast<float>(view.weight / azimuths * kMomentFactor[k] * y[k]);
+    return made;
 }
 
 // One order of light around every node. `previous` null: light scattered once.
@@ -73,29 +83,42 @@ class Gatherer {
           azimuths_(previous == nullptr ? kFirstAzimuths : kLaterAzimuths) {}
 
     void gather(Order& order) {
-        const int batch = kMaxSources / azimuths_;
         for (int row = 0; row < kMomentRows; ++row) {
-            const double height_m = data_.moment_row_height_m(row);
-            for (const ViewSine& view : view_sines(data_.shell.dip_sine(height_m))) {
-                Path path{};
-                path.steps = steps_.data();
-                lay_path(data_, height_m, view.sine, view.side, kGatherSteps, path);
-                kernels().weigh(data_.medium, path);
-                for (int first = 0; first < kSineNodes; first += batch) {
-                    const int count = std::min(batch, kSineNodes - first);
-                    place_sources(view, first, count);
-                    trace(path, count * azimuths_);
-                    collect(view, row, first, count, order);
+            for (const ViewSine& view : view_sines(data_.shell.dip_sine(data_.moment_row_height_m(row)))) {
+                for (int a = 0; a < azimuths_; ++a)
+                    views_[static_cast<std::size_t>(a)] = view_azimuth(view, a, azimuths_);
+                if (previous_ != nullptr) {
+                    gather(row, view, {0, kSineNodes, kGatherSteps}, order);
+                    continue;
                 }
+                gather(row, view, {0, kNightNodes + 1, kTwilightSteps}, order);
+                gather(row, view, {kNightNodes + 1, kSineNodes, kGatherSteps}, order);
             }
         }
     }
 
   private:
-    // Cosine of the view's azimuth from the source's, times its level part.
-    [[nodiscard]] double view_x(const ViewSine& view, int azimuth) const {
-        return std::sqrt(std::max(0.0, 1.0 - view.sine * view.sine)) *
-               std::cos(std::numbers::pi * (azimuth + 0.5) / azimuths_);
+    struct Sines {
+        int first;
+        int end;
+        int steps;
+    };
+    void gather(int row, const ViewSine& view, const Sines& sines, Order& order) {
+        Path path{};
+        path.steps = steps_.data();
+        lay_path(data_, data_.moment_row_height_m(row), view.sine, view.side, sines.steps, path);
+        kernels().weigh(data_.medium, path);
+        const int batch = kMaxSources / azimuths_;
+        for (int first = sines.first; first < sines.end; first += batch) {
+            const int count = std::min(batch, sines.end - first);
+            place_sources(view, first, count);
+            trace(path, count * azimuths_);
+            collect(view, row, first, count, order);
+        }
+    }
+
+    [[nodiscard]] std::span<const ViewAzimuth> views() const {
+        return std::span(views_).first(static_cast<std::size_t>(azimuths_));
     }
 
     void place_sources(const ViewSine& view, int first, int count) {
@@ -103,8 +126,8 @@ class Gatherer {
         for (int sine = first; sine < first + count; ++sine) {
             const double up = moment_sine(sine);
             const double level = std::sqrt(std::max(0.0, 1.0 - up * up));
-            for (int a = 0; a < azimuths_; ++a) {
-                const double cosine = view.sine * up + view_x(view, a) * level;
+            for (const ViewAzimuth& azimuth : views()) {
+                const double cosine = view.sine * up + azimuth.x * level;
                 *source++ = {up, cosine, static_cast<float>(rayleigh_phase(cosine))};
             }
         }
@@ -119,7 +142,7 @@ class Gatherer {
         }
         for (std::size_t j = 0; j < static_cast<std::size_t>(count); ++j) {
             Lanes aerosol{};
-            kernels().add_first_order(data_.medium, data_.column_table(), path, sources_[j], light_[j],
+            kernels().add_first_order(data_.medium, data_.source_table(), path, sources_[j], light_[j],
                                       aerosol);
             const auto phase =
                 static_cast<float>(cornette_shanks_phase(data_.model.aerosol_g, sources_[j].view_cosine));
@@ -129,16 +152,16 @@ class Gatherer {
     }
 
     void collect(const ViewSine& view, int row, int first, int count, Order& order) const {
-        const double weight = view.weight / azimuths_;
-        const auto down = static_cast<float>(4.0 * std::numbers::pi * weight * view.sine);
+        const auto down = static_cast<float>(4.0 * std::numbers::pi * view.weight / azimuths_ * view.sine);
         const Lanes* light = light_.data();
         for (int sine = first; sine < first + count; ++sine) {
-            for (int a = 0; a < azimuths_; ++a, ++light) {
-                add_radiance(view, view_x(view, a), weight, *light, order.air[moment_node(row, sine)]);
+            for (const ViewAzimuth& azimuth : views()) {
+                const Lanes& seen = *light++;
+                kernels().add_moments(azimuth.weight.data(), seen, order.air[moment_node(row, sine)].data());
                 if (row != 0 || view.side == Side::kGround) continue;
                 Lanes& ground = order.ground[static_cast<std::size_t>(sine)];
                 for (int i = 0; i < kLanes; ++i)
-                    ground.v[i] += down * light->v[i];
+                    ground.v[i] += down * seen.v[i];
             }
         }
     }
@@ -146,7 +169,8 @@ class Gatherer {
     const AirData& data_;
     const MomentTable* previous_;
     int azimuths_;
-    std::array<PathStep, kGatherSteps> steps_{};
+    std::array<ViewAzimuth, kFirstAzimuths> views_{};
+    std::array<PathStep, kTwilightSteps> steps_{};
     std::array<Source, kMaxSources> sources_{};
     std::array<Lanes, kMaxSources> light_{};
 };

@@ -52,10 +52,11 @@ void fill_step(const Ray& ray, double from_m, double to_m, const Densities& from
     step.along_part = along_m / radius_m;
     step.view_sine =
         static_cast<float>(std::clamp((eye_radius_m * ray.cosine + along_m) / radius_m, -1.0, 1.0));
-    step.column_row = static_cast<float>(ray.data.column_row(height_m));
+    step.column_row = static_cast<float>(ray.data.source_row(height_m));
     step.moment_row = static_cast<float>(ray.data.moment_row(height_m));
-    step.dip_sine = static_cast<float>(ray.data.shell.dip_sine(height_m));
-    step.dip_cosine = static_cast<float>(ray.data.shell.dip_cosine(height_m));
+    const double dip_sine = ray.data.dip_sine(ray.data.source_dip_sine, height_m);
+    step.dip_sine = static_cast<float>(dip_sine);
+    step.dip_cosine = static_cast<float>(std::sqrt((1.0 - dip_sine) * (1.0 + dip_sine)));
 }
 
 // Long grazing paths need more steps than steep ones: half of them at least, all of them from the

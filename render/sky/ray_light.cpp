@@ -71,7 +71,7 @@ RayLight ray_light(const AirTables& tables, const RayQuery& query) noexcept {
                         static_cast<float>(rayleigh_phase(between))};
     Lanes all{};
     Lanes haze{};
-    kernels().add_first_order(data.medium, data.column_table(), path, toward, all, haze);
+    kernels().add_first_order(data.medium, data.source_table(), path, toward, all, haze);
     if (tables.orders() == Orders::kAll)
         kernels().add_higher_orders(data.medium, data.moment_table(), path, &toward, 1, &all);
     const auto phase = static_cast<float>(cornette_shanks_phase(data.model.aerosol_g, toward.view_cosine));

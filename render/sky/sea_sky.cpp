@@ -78,7 +78,7 @@ void build_sea_sky(AirData& data) {
                 const double between =
                     std::clamp(sine * up + level * source_level * std::cos(azimuth), -1.0, 1.0);
                 sources[j] = {up, between, static_cast<float>(rayleigh_phase(between))};
-                kernels().add_first_order(data.medium, data.column_table(), path, sources[j], light[j],
+                kernels().add_first_order(data.medium, data.source_table(), path, sources[j], light[j],
                                           aerosol[j]);
             }
             if (!data.moments.empty())

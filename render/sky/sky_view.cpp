@@ -188,7 +188,7 @@ void SkyView::State::march(const Path& path, int count) noexcept {
     light.fill(Lanes{});
     aerosol.fill(Lanes{});
     for (std::size_t j = 0; j < static_cast<std::size_t>(count); ++j) {
-        kernels().add_first_order(data.medium, data.column_table(), path, sources[j], light[j], aerosol[j]);
+        kernels().add_first_order(data.medium, data.source_table(), path, sources[j], light[j], aerosol[j]);
     }
     if (data.moments.empty()) return;
     kernels().add_higher_orders(data.medium, data.moment_table(), path, sources.data(), count, light.data());

@@ -18,6 +18,18 @@ using namespace tests;
 
 class Allocation : public GlTest {};
 
+// Rain and snow below its cloud, and a flash each second.
+void add_storm(Scene& scene) {
+    scene.weather.precipitations[0] = {Precipitation::Kind::kRain, 20.0, 4000.0};
+    scene.weather.precipitations[1] = {Precipitation::Kind::kSnow, 2.0, 4000.0};
+    scene.weather.precipitation_count = 2;
+    scene.weather.clouds[0].genus = CloudGenus::kCumulonimbus;
+    scene.weather.clouds[0].base_m = 4000.0;
+    scene.weather.cloud_count = 1;
+    scene.weather.lightnings[0] = {0, 60.0, 5};
+    scene.weather.lightning_count = 1;
+}
+
 // A world that goes on: the Sun climbs, the aircraft too, so that tables are rebuilt all the time.
 class Flight {
   public:
@@ -93,6 +105,7 @@ TEST_F(Allocation, SteadyFramesAllocateNothingAndSoAgainAfterNewAir) {
     const std::vector<Channel> channels{{"a", 64, 64}, {"b", 64, 64, Screen{100.0, 50.0}}};
     for (auto& [name, scene] : four_times()) {
         if (name == "dawn") add_waves(scene);
+        if (name == "noon" || name == "night") add_storm(scene);
         scene.sky.star_scintillation = true;
         for (const double turn : {-30.0, 30.0})
             add_view(scene, symmetric_frustum(30.0, 64, 64), view_from_enu(180.0, 10.0, 0.0, turn));
@@ -118,6 +131,7 @@ TEST_F(Allocation, SteadyFramesAllocateNothingAndSoAgainAfterNewAir) {
 TEST_F(Allocation, NorDoFramesWithAnotherRenderersPicture) {
     const std::vector<Channel> channels{{"only", 64, 64}};
     for (auto& [name, scene] : four_times()) {
+        if (name == "dusk") add_storm(scene);
         add_view(scene, symmetric_frustum(30.0, 64, 64), view_from_enu(180.0, 10.0, 0.0, 0.0));
         // Through the top of a fog too.
         scene.weather.obscurants[scene.weather.obscurant_count++] =

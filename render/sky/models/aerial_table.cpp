@@ -266,7 +266,7 @@ void AerialTable::march_to(const Path& path, int first_step, int last_step,
     part.steps += first_step;
     part.count = last_step - first_step;
     for (std::size_t j = 0; j < kColumns; ++j) {
-        kernels().add_first_order(air_->medium, air_->column_table(), part, sources[j], march.light[j],
+        kernels().add_first_order(air_->medium, air_->source_table(), part, sources[j], march.light[j],
                                   march.haze[j]);
     }
     if (air_->moments.empty()) return;

@@ -86,7 +86,7 @@ void march(const Kernels& variant, const AirData& data, Ray& ray, const std::vec
     variant.weigh(data.medium, ray.path);
     for (std::size_t j = 0; j < sources.size(); ++j) {
         out.light[j] = out.aerosol[j] = Lanes{};
-        variant.add_first_order(data.medium, data.column_table(), ray.path, sources[j], out.light[j],
+        variant.add_first_order(data.medium, data.source_table(), ray.path, sources[j], out.light[j],
                                 out.aerosol[j]);
     }
     variant.add_higher_orders(data.medium, data.moment_table(), ray.path, sources.data(),

@@ -64,7 +64,7 @@ Luminances luminances(const AirData& data, const Reference& reference, const Ray
     kernels().weigh(data.medium, path);
     Lanes light{};
     Lanes aerosol{};
-    kernels().add_first_order(data.medium, data.column_table(), path,
+    kernels().add_first_order(data.medium, data.source_table(), path,
                               {sun[2], cosine, static_cast<float>(rayleigh)}, light, aerosol);
     const Reference::Light truth = reference.march(ray.height_m, view, sun, ray.to_ground, 500);
     Luminances y;
@@ -95,7 +95,7 @@ Errors measure(const AirTables& tables, int steps) {
 }
 
 TEST(SingleScattering, FollowsDoublePrecisionOnHardRays) {
-    const AirTables tables(air_model({}));
+    const AirTables tables(straight(air_model({})));
     const Errors fine = measure(tables, 400);
     const Errors usual = measure(tables, 48);
     for (const auto& [errors, steps] : {std::pair{&fine, 400}, std::pair{&usual, 48}}) {
@@ -113,7 +113,7 @@ TEST(SingleScattering, FollowsDoublePrecisionOnHardRays) {
 }
 
 TEST(SunColumns, FollowDoublePrecisionDownToTheHorizon) {
-    const AirTables tables(air_model({}));
+    const AirTables tables(straight(air_model({})));
     const AirData& data = tables.data();
     const Reference reference(data);
     Errors errors;

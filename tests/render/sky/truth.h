@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "render/sky/air_model.h"
+
 namespace skyig::render::sky {
 
 inline constexpr double kDeg = 3.14159265358979323846 / 180.0;
@@ -30,6 +32,12 @@ inline std::vector<double> powers(double first, double end, double factor) {
     for (std::size_t i = 0; i < count; ++i)
         values[i] = first * std::pow(factor, static_cast<double>(i));
     return values;
+}
+
+/// Sunlight as the truth tables have it.
+inline AirModel straight(AirModel model) {
+    model.refractivity = 0.0;
+    return model;
 }
 
 /// Look-ups take single precision.

@@ -99,11 +99,12 @@ TEST_P(Aerial, IsTheDirectMarch) {
                     errors.quantile(0.99), errors.largest());
         if (errors.count() == 0) continue;           // `windlight` has no air in space
         const bool from_space = c.height_m > 100e3;  // rows are coarse over the thin limb above the horizon
-        const double bound = GetParam() == SkyModel::kSingle ? 0.05 : 0.03;
+        const double bound = GetParam() == SkyModel::kSingle ? 0.1 : 0.03;
         EXPECT_LT(errors.quantile(0.5), 0.002) << c.name;
         EXPECT_LT(errors.quantile(0.99), from_space ? 0.15 : bound) << c.name;
-        // The edge of the Earth's shadow across a ray is smoothed: with the first order alone, and from
-        // space, the largest errors stand there, in faint light.
+        // The edge of the Earth's shadow across a ray is smoothed: with the first order alone (at 4 deg below
+        // the horizon it passes the eye at 11 km), and from space, the largest errors stand there, in faint
+        // light.
         if (GetParam() == SkyModel::kMulti && !from_space) {
             EXPECT_LT(errors.largest(), 0.05) << c.name;
         }
