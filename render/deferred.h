@@ -59,8 +59,8 @@ class DeferredAir {
     /// Rises whenever the table in use is replaced.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
-    /// What the air, and fog in it, do to smooth light on its way from there, to the sum of all lights. \param
-    /// direction_enu  unit vector
+    /// What the air, and fog in it, do to smooth light on its way from there, to the sum of all lights.
+    /// \param direction_enu  unit vector
     [[nodiscard]] sky::models::AirBetween between(const glm::dvec3& direction_enu,
                                                   double distance_m) const noexcept;
     /// What the shader makes of a thing, in double. \param direction_enu  unit vector

@@ -83,13 +83,12 @@ void DeferredPass::upload_veil(const DeferredAir& air) {
     std::size_t column = 0;
     for (const fog::Veil::Segment& segment : veil->segments()) {
         const shaders32::VeilSegment s = fog::single_precision(segment);
-        const std::array<glm::vec4, kVeilRows> texels{
-            glm::vec4{s.low_m, s.high_m, s.low_per_m, s.high_per_m},
-            glm::vec4{s.low_depth, s.high_depth, s.kept, s.g},
-            glm::vec4{s.low_even, s.albedo.x},
-            glm::vec4{s.high_even, s.albedo.y},
-            glm::vec4{s.low_slope, s.albedo.z},
-            glm::vec4{s.high_slope, 0.0F}};
+        const std::array<glm::vec4, kVeilRows> texels{glm::vec4{s.low_m, s.high_m, s.low_per_m, s.high_per_m},
+                                                      glm::vec4{s.low_depth, s.high_depth, s.kept, s.g},
+                                                      glm::vec4{s.low_even, s.albedo.x},
+                                                      glm::vec4{s.high_even, s.albedo.y},
+                                                      glm::vec4{s.low_slope, s.albedo.z},
+                                                      glm::vec4{s.high_slope, 0.0F}};
         for (std::size_t row = 0; row < texels.size(); ++row)
             std::memcpy(&veil_texels_[4 * (row * fog::Veil::kMostSegments + column)], &texels[row].x,
                         sizeof(glm::vec4));

@@ -178,8 +178,9 @@ void plan_night(Plan& plan, double sun_rad) {
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables", "sun sky",   "moon sky", "night sky", "veil",      "clouds",        "near clouds", "dome",      "waves",
-        "milky way",  "stars",     "corona",   "sun disc",  "moon disc", "precipitation", "sun glare",   "moon glare"};
+        "air tables",  "sun sky",   "moon sky",      "night sky", "veil",      "clouds",
+        "near clouds", "dome",      "waves",         "milky way", "stars",     "corona",
+        "sun disc",    "moon disc", "precipitation", "sun glare", "moon glare"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -263,9 +264,10 @@ void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bo
     const auto layers = scene.weather.all_clouds();
     const bool any = std::any_of(layers.begin(), layers.end(),
                                  [](const CloudLayer& layer) { return layer.coverage > 0.0; });
-    put(plan, Pass::kClouds, any ? Verdict{true, "clouds stand in the sky"} : Verdict{false, "no layer has any"});
+    put(plan, Pass::kClouds,
+        any ? Verdict{true, "clouds stand in the sky"} : Verdict{false, "no layer has any"});
     put(plan, Pass::kNearClouds,
-        !any          ? Verdict{false, "no layer has any"}
+        !any         ? Verdict{false, "no layer has any"}
         : near_shown ? Verdict{true, "the eye is in a layer or soon may be"}
                      : Verdict{false, "no layer is near the eye's height"});
     plan.passes[static_cast<std::size_t>(Pass::kClouds)].resolution = {2 * map_size, map_size};

@@ -8,16 +8,16 @@
 namespace skyig::render {
 
 enum class Pass {
-    kAirTables,  ///< optical columns and multiple scattering of a new air
-    kSunSky,     ///< direction table of sunlit air
-    kMoonSky,    ///< direction table of moonlit air
-    kNightSky,   ///< direction table of airglow, zodiacal light, even starlight, towns
-    kVeil,       ///< light of fog, haze, dust and their like, on the dome's vertices
+    kAirTables,   ///< optical columns and multiple scattering of a new air
+    kSunSky,      ///< direction table of sunlit air
+    kMoonSky,     ///< direction table of moonlit air
+    kNightSky,    ///< direction table of airglow, zodiacal light, even starlight, towns
+    kVeil,        ///< light of fog, haze, dust and their like, on the dome's vertices
     kClouds,      ///< map of far clouds for all channels
     kNearClouds,  ///< map of clouds round the eye
-    kDome,       ///< smooth light of all directions, toned at the vertices
-    kWaves,      ///< waves of the sea, where pixels resolve them
-    kMilkyWay,   ///< what the Milky Way adds to even starlight
+    kDome,        ///< smooth light of all directions, toned at the vertices
+    kWaves,       ///< waves of the sea, where pixels resolve them
+    kMilkyWay,    ///< what the Milky Way adds to even starlight
     kStars,
     kCorona,  ///< what is left of the Sun in a total eclipse
     kSunDisc,

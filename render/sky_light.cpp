@@ -120,13 +120,13 @@ double SkyLight::end_m(double straight_rad, bool ground) const noexcept {
 
 shaders64::VeilSum SkyLight::veil_sum(double straight_rad, double azimuth_rad, bool ground) const noexcept {
     // From one side of the horizon only, as the tables are asked.
-    const double own_rad = ground ? std::min(straight_rad, straight_horizon_rad)
-                                  : std::max(straight_rad, straight_horizon_rad);
+    const double own_rad =
+        ground ? std::min(straight_rad, straight_horizon_rad) : std::max(straight_rad, straight_horizon_rad);
     return veil->sum(direction_of({own_rad, azimuth_rad}), end_m(straight_rad, ground));
 }
 
-// Behind the veil the ground lies in what light it leaves. Before a veil far away lies clear air: of the sky's
-// own light in that direction as much as there is of all its air, before the ground as at the horizon.
+// Behind the veil the ground lies in what light it leaves. Before a veil far away lies clear air: of the
+// sky's own light in that direction as much as there is of all its air, before the ground as at the horizon.
 glm::vec3 SkyLight::veiled(const glm::vec3& clear_cd_m2, double straight_rad, double azimuth_rad,
                            bool ground) const noexcept {
     constexpr double kSeenThrough = 1e-3;
@@ -145,7 +145,8 @@ glm::vec3 SkyLight::veiled(const glm::vec3& clear_cd_m2, double straight_rad, do
     if (!ground) {
         endless /= 1.0 - shaders64::veil_all_air_passes(sine, front_air);
     } else if ((1.0 - passes.z) * shaders64::veil_lost(sum.cut_depth) > kSeenThrough) {
-        endless = glm::dvec3{clear_rgb_cd_m2(straight_horizon_rad, horizon_elevation_rad, azimuth_rad, false)};
+        endless =
+            glm::dvec3{clear_rgb_cd_m2(straight_horizon_rad, horizon_elevation_rad, azimuth_rad, false)};
     }
     return glm::vec3{shaders64::veil_in_air(sum, passes, endless, behind)};
 }
@@ -170,7 +171,8 @@ glm::vec3 SkyLight::belt_passes(double elevation_rad) const noexcept {
     const glm::vec3 clear =
         milky_way.share * night->transmittance(above_rad) * glm::vec3{night::natural_colours().starlight};
     if (veil == nullptr) return clear;
-    return static_cast<float>(std::exp(-veil_sum(above_rad + straight_horizon_rad, 0.0, false).cut_depth)) * clear;
+    return static_cast<float>(std::exp(-veil_sum(above_rad + straight_horizon_rad, 0.0, false).cut_depth)) *
+           clear;
 }
 
 double SkyLight::belt_above_horizon(double elevation_rad) const noexcept {
@@ -199,8 +201,8 @@ SlopeLight SkyLight::of_slopes(double elevation_rad, double azimuth_rad) const n
         sum.density = slopes.density;
     }
     if (veil != nullptr) {
-        const auto passed =
-            static_cast<float>(std::exp(-veil_sum(above_rad + straight_horizon_rad, azimuth_rad, true).cut_depth));
+        const auto passed = static_cast<float>(
+            std::exp(-veil_sum(above_rad + straight_horizon_rad, azimuth_rad, true).cut_depth));
         for (glm::vec3* part : {&sum.east, &sum.north, &sum.bend_cd_m2, &sum.glitter})
             *part *= passed;
     }

@@ -122,7 +122,7 @@ struct SkyLight {
     [[nodiscard]] glm::vec3 clear_rgb_cd_m2(double straight_rad, double elevation_rad, double azimuth_rad,
                                             bool ground) const noexcept;
     [[nodiscard]] shaders64::VeilSum veil_sum(double straight_rad, double azimuth_rad,
-                                            bool ground) const noexcept;
+                                              bool ground) const noexcept;
     [[nodiscard]] glm::vec3 veiled(const glm::vec3& clear_cd_m2, double straight_rad, double azimuth_rad,
                                    bool ground) const noexcept;
     [[nodiscard]] double end_m(double straight_rad, bool ground) const noexcept;

@@ -38,13 +38,11 @@ void shine(const LitAir& lit, const glm::dvec3& direction_enu, const sky::AirTab
     if (lit.view == nullptr) return;
     const glm::dvec3 scale{lit.scale_xyz};
     const double elevation_rad = horizontal_of(direction_enu).elevation_rad;
-    const double seen_rad =
-        light.straight_elevation_rad(light.refraction.apparent_from_true(elevation_rad));
+    const double seen_rad = light.straight_elevation_rad(light.refraction.apparent_from_true(elevation_rad));
     beam.lux = kRec709FromXyz * (scale * air.direct_sun_xyz(std::max(top_m, 0.0), seen_rad));
     const glm::dvec3 sky_xyz_lux = air.ground_diffuse_xyz(elevation_rad);
-    sources.above_cd_m2 += sky_xyz_lux.y > 0.0
-                               ? kRec709FromXyz * (scale * sky_xyz_lux) / std::numbers::pi
-                               : mean_sky_cd_m2(lit);
+    sources.above_cd_m2 +=
+        sky_xyz_lux.y > 0.0 ? kRec709FromXyz * (scale * sky_xyz_lux) / std::numbers::pi : mean_sky_cd_m2(lit);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What lights a frame's fog and lies before it: the sources of fog/veil.h out of the sky's own tables. Free of
-// GL.
+// What lights a frame's fog and lies before it: the sources of fog/veil.h out of the sky's own tables. Free
+// of GL.
 #pragma once
 
 #include "render/fog/veil.h"
@@ -9,9 +9,9 @@
 
 namespace skyig::render {
 
-/// Sun and Moon through the air above the veil's top, and the even light of their skies and of the dark one on
-/// the ground. Where the air's model follows one order of scattering alone, the sky is what `light` has round
-/// the eye.
+/// Sun and Moon through the air above the veil's top, and the even light of their skies and of the dark one
+/// on the ground. Where the air's model follows one order of scattering alone, the sky is what `light` has
+/// round the eye.
 [[nodiscard]] fog::VeilSources veil_sources(const Scene& scene, const sky::AirTables& air,
                                             const SkyLight& light, double top_m) noexcept;
 

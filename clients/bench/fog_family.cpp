@@ -43,7 +43,8 @@ std::vector<Obscurant> four_layers() {
 
 double density(const Obscurant& o, double height_m) {
     const double over = height_m > o.top_m ? (height_m - o.top_m) / std::max(o.top_band_m, 1e-300) : 0.0;
-    const double under = height_m < o.base_m ? (o.base_m - height_m) / std::max(o.bottom_band_m, 1e-300) : 0.0;
+    const double under =
+        height_m < o.base_m ? (o.base_m - height_m) / std::max(o.bottom_band_m, 1e-300) : 0.0;
     return std::clamp(1.0 - over - under, 0.0, 1.0);
 }
 
@@ -93,8 +94,7 @@ void add_depths(ModelEntry& in_double, ModelEntry& in_float, const std::string& 
                 const double wanted = summed_depth(layers, eye_m, sine, until_m);
                 if (wanted < 1e-6) continue;
                 exact.add(100.0 * (veil.optical_depth(sine, until_m) / wanted - 1.0));
-                const float got =
-                    veil.optical_depth(static_cast<float>(sine), static_cast<float>(until_m));
+                const float got = veil.optical_depth(static_cast<float>(sine), static_cast<float>(until_m));
                 quick.add(100.0 * (static_cast<double>(got) / wanted - 1.0));
             }
         }
@@ -109,19 +109,19 @@ ErrorFigures contrast_errors() {
     for (const double eye_m : {2.0, 304.8, 457.2, 609.6}) {
         for (const double visibility_m : {300.0, 800.0, 5000.0}) {
             for (const double contrast : {0.05, 0.02}) {
-                const std::vector<Obscurant> layers{layer(Obscurant::Kind::kFog, -1000.0, 900.0, 50.0,
-                                                          -std::log(contrast) / visibility_m)};
+                const std::vector<Obscurant> layers{
+                    layer(Obscurant::Kind::kFog, -1000.0, 900.0, 50.0, -std::log(contrast) / visibility_m)};
                 fog::Veil veil;
                 veil.lay(layers, eye_m);
                 fog::VeilSources sources;
                 sources.beams[0] = {render::direction_of({0.6, 2.0}), glm::dvec3{9e4}};
                 sources.above_cd_m2 = glm::dvec3{4000.0};
                 veil.light(sources);
-                const auto both =
-                    veil.along(glm::dvec3{1.0, 0.0, 0.0}, visibility_m, fog::Veil::kEndless_m);
+                const auto both = veil.along(glm::dvec3{1.0, 0.0, 0.0}, visibility_m, fog::Veil::kEndless_m);
                 const double whole = both.whole.added_cd_m2.y;
                 const double seen =
-                    render::shaders64::veil_before(both.near.added_cd_m2, both.whole.added_cd_m2, both.near).y;
+                    render::shaders64::veil_before(both.near.added_cd_m2, both.whole.added_cd_m2, both.near)
+                        .y;
                 samples.add(100.0 * ((whole - seen) / whole / contrast - 1.0));
             }
         }
@@ -143,7 +143,8 @@ ErrorFigures rvr_errors() {
                         std::log(intensity / threshold) - extinction * std::exp(middle) - 2.0 * middle;
                     (log_lux > 0.0 ? low : high) = middle;
                 }
-                samples.add(100.0 * (fog::allard_range_m(intensity, extinction, threshold) / std::exp(low) - 1.0));
+                samples.add(100.0 *
+                            (fog::allard_range_m(intensity, extinction, threshold) / std::exp(low) - 1.0));
             }
         }
     }
@@ -182,14 +183,17 @@ Report measure_fog_errors(const std::filesystem::path&) {
     report.title = "Fog, haze and their like; runway visual range";
     report.cases =
         "a ground fog with a soft top, and four layers of four sorts, seen from 2 m to 10 km towards nine "
-        "elevations up to 50 km; a black thing at the visibility set, 2 % and 5 %, on the ground and at 1,000, "
+        "elevations up to 50 km; a black thing at the visibility set, 2 % and 5 %, on the ground and at "
+        "1,000, "
         "1,500 and 2,000 ft; lights of 30 to 200,000 cd by night and day";
     report.truth =
         "optical depth: midpoints between all crossings, double. Contrast: Koschmieder's law. Runway visual "
-        "range: bisection of Allard's law. What fog sends to the eye is held against a transport program's slab "
+        "range: bisection of Allard's law. What fog sends to the eye is held against a transport program's "
+        "slab "
         "by `fog_test`, the picture itself by `pixel_test`";
     report.costs =
-        "`look-up` is all that a vertex of the dome asks of the veil, from in it; `frame` lays and lights the "
+        "`look-up` is all that a vertex of the dome asks of the veil, from in it; `frame` lays and lights "
+        "the "
         "stack, once a frame.";
     report.floor = "one exponential";
     report.headline = {"optical depth", "four layers", "look-up"};
@@ -199,8 +203,7 @@ Report measure_fog_errors(const std::filesystem::path&) {
     ModelEntry four_double{"four layers", "fog, haze, smoke and dust; in double", {}, {}};
     ModelEntry four_float{"four layers, float", "the same as the shader computes it", {}, {}};
     add_depths(four_double, four_float, "four layers", four_layers());
-    in_double.errors.push_back(
-        {"contrast", "2 % and 5 %, ground to 2,000 ft", "%", contrast_errors()});
+    in_double.errors.push_back({"contrast", "2 % and 5 %, ground to 2,000 ft", "%", contrast_errors()});
     ModelEntry rvr{"rvr", "Allard by Newton's method, and Koschmieder", {}, {}};
     rvr.errors.push_back({"range of lights", "night and day", "%", rvr_errors()});
     report.models = {in_double, in_float, four_double, four_float, rvr};
@@ -208,13 +211,14 @@ Report measure_fog_errors(const std::filesystem::path&) {
 }
 
 std::vector<Contender> fog_contenders() {
-    return {{"one layer", "look-up", veil_work(one_layer(), 2.0)},
-            {"one layer", "frame", frame_work(one_layer())},
-            {"four layers", "look-up", veil_work(four_layers(), 2.0)},
-            {"four layers", "frame", frame_work(four_layers())},
-            {"rvr", "range", repeat([](std::uint64_t call) {
-                 return fog::runway_visual_range(1e-3 * static_cast<double>(call % 64 + 1), 10e3, 100.0).range_m;
-             })}};
+    return {
+        {"one layer", "look-up", veil_work(one_layer(), 2.0)},
+        {"one layer", "frame", frame_work(one_layer())},
+        {"four layers", "look-up", veil_work(four_layers(), 2.0)},
+        {"four layers", "frame", frame_work(four_layers())},
+        {"rvr", "range", repeat([](std::uint64_t call) {
+             return fog::runway_visual_range(1e-3 * static_cast<double>(call % 64 + 1), 10e3, 100.0).range_m;
+         })}};
 }
 
 Work fog_floor() {

@@ -12,7 +12,8 @@ void add_rvr(CLI::App& app, RvrOptions& options) {
         ->check(finite_in(0.1, 1e9));
     what->add_option("--extinction", options.extinction_per_m, "of visible light, per metre")
         ->check(finite_in(0.0, 1e4));
-    what->add_option("--rvr", options.rvr_m, "wanted runway visual range, metres: tells the extinction for it")
+    what->add_option("--rvr", options.rvr_m,
+                     "wanted runway visual range, metres: tells the extinction for it")
         ->check(finite_in(0.1, 1e6));
     what->require_option(1);
     verb.add_option("--intensity", options.intensity_cd, "of the lights, candela (10000)")

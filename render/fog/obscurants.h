@@ -19,10 +19,10 @@ struct Optics {
 };
 
 /// Fog: droplets, 1 - albedo below 1e-5 in visible light. Haze: the continental average of OPAC (Hess, Koepke
-/// & Schult, Bull. Am. Met. Soc. 79 (1998) 831). Dust: desert sites of AERONET (Dubovik et al., J. Atmos. Sci.
-/// 59 (2002) 590), albedo between 440 and 670 nm. Sand: OPAC's transported mineral mode, grains that absorb
-/// more, the blue most. Smoke: Dubovik's savanna fires. Rain: drops larger than the light by far, so that half
-/// of their extinction is diffraction straight ahead. Snow: crystals.
+/// & Schult, Bull. Am. Met. Soc. 79 (1998) 831). Dust: desert sites of AERONET (Dubovik et al., J. Atmos.
+/// Sci. 59 (2002) 590), albedo between 440 and 670 nm. Sand: OPAC's transported mineral mode, grains that
+/// absorb more, the blue most. Smoke: Dubovik's savanna fires. Rain: drops larger than the light by far, so
+/// that half of their extinction is diffraction straight ahead. Snow: crystals.
 [[nodiscard]] const Optics& optics_of(Obscurant::Kind kind) noexcept;
 
 /// Extinction of an obscurant that lies in patches: the one whose transmittance is the mean of cells with and
@@ -35,8 +35,8 @@ struct Optics {
 [[nodiscard]] double area_share(const WeatherArea& area, const glm::dvec2& place_m = {}) noexcept;
 
 /// All obscurants in one profile: shells in which extinction is linear with height, from the ground up,
-/// without gaps. Each counts by what its area has of it at the eye: a bank that the eye is not in is not seen.
-/// Bands below 0 count as 0, a top below its base as the base.
+/// without gaps. Each counts by what its area has of it at the eye: a bank that the eye is not in is not
+/// seen. Bands below 0 count as 0, a top below its base as the base.
 class Profile {
   public:
     struct Shell {
@@ -44,7 +44,7 @@ class Profile {
         double high_m = 0.0;
         double low_per_m = 0.0;  ///< just inside
         double high_per_m = 0.0;
-        Optics optics;  ///< means by extinction
+        Optics optics;      ///< means by extinction
         double kept = 1.0;  ///< cut depth over true depth: 1 - mean albedo * g^2
     };
     static constexpr std::size_t kMostShells = 4 * Weather::kMaxObscurants;

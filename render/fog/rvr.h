@@ -1,6 +1,6 @@
-// How far runway lights and marks are seen: what a transmissometer makes of extinction, and what an instructor
-// sets. Lights by Allard's law, E = I exp(-sigma R) / R^2, against the threshold of a pilot's eye; marks by
-// Koschmieder's law; the runway visual range is the larger of both (ICAO Annex 3, 4.6.3; Doc 9328).
+// How far runway lights and marks are seen: what a transmissometer makes of extinction, and what an
+// instructor sets. Lights by Allard's law, E = I exp(-sigma R) / R^2, against the threshold of a pilot's eye;
+// marks by Koschmieder's law; the runway visual range is the larger of both (ICAO Annex 3, 4.6.3; Doc 9328).
 #pragma once
 
 namespace skyig::render::fog {
@@ -10,8 +10,8 @@ namespace skyig::render::fog {
 /// steps 8e-7, 1e-5, 1e-4, 1e-3). Backgrounds below 1 cd/m2 count as that, above 40,000 as that.
 [[nodiscard]] double light_threshold_lux(double background_cd_m2) noexcept;
 
-/// Distance at which a light is at its threshold, metres; 0 for no light. Any finite input: extinction below 0
-/// counts as 0. Within 1e-12 of the root.
+/// Distance at which a light is at its threshold, metres; 0 for no light. Any finite input: extinction below
+/// 0 counts as 0. Within 1e-12 of the root.
 [[nodiscard]] double allard_range_m(double intensity_cd, double extinction_per_m,
                                     double threshold_lux) noexcept;
 /// Distance at which a black mark has that contrast with what lies behind it; infinite in empty air. \param
@@ -25,8 +25,7 @@ struct RunwayVisualRange {
     double threshold_lux = 0.0;
 };
 [[nodiscard]] RunwayVisualRange runway_visual_range(double extinction_per_m, double intensity_cd,
-                                                    double background_cd_m2,
-                                                    double contrast = 0.05) noexcept;
+                                                    double background_cd_m2, double contrast = 0.05) noexcept;
 
 /// Extinction with which the range is `range_m` > 0: the largest at which lights or marks are still seen that
 /// far. \return 0 if lights would not be seen as far in empty air, and marks are

@@ -30,8 +30,7 @@ double extinction_at(const Profile::Shell& shell, double height_m) {
 double height_of_depth(const Profile::Shell& shell, double depth) {
     const double slope = (shell.high_per_m - shell.low_per_m) / (shell.high_m - shell.low_m);
     const double wanted = depth / shell.kept;
-    const double root =
-        std::sqrt(std::max(shell.high_per_m * shell.high_per_m - 2.0 * slope * wanted, 0.0));
+    const double root = std::sqrt(std::max(shell.high_per_m * shell.high_per_m - 2.0 * slope * wanted, 0.0));
     const double below_m = 2.0 * wanted / std::max(shell.high_per_m + root, 1e-300);
     return std::clamp(shell.high_m - below_m, shell.low_m, shell.high_m);
 }
@@ -40,9 +39,18 @@ double height_of_depth(const Profile::Shell& shell, double depth) {
 
 shaders32::VeilSegment single_precision(const Veil::Segment& s) noexcept {
     const auto f = [](double value) { return static_cast<float>(value); };
-    return {f(s.low_m),          f(s.high_m),           f(s.low_per_m),          f(s.high_per_m),
-            f(s.low_depth),      f(s.high_depth),       f(s.kept),               f(s.g),
-            glm::vec3{s.albedo}, glm::vec3{s.low_even}, glm::vec3{s.high_even},  glm::vec3{s.low_slope},
+    return {f(s.low_m),
+            f(s.high_m),
+            f(s.low_per_m),
+            f(s.high_per_m),
+            f(s.low_depth),
+            f(s.high_depth),
+            f(s.kept),
+            f(s.g),
+            glm::vec3{s.albedo},
+            glm::vec3{s.low_even},
+            glm::vec3{s.high_even},
+            glm::vec3{s.low_slope},
             glm::vec3{s.high_slope}};
 }
 
@@ -163,8 +171,7 @@ Slab slab_of(const Veil::Segment& s, int channel, const VeilSources& sources,
     slab.passes = x < 300.0 ? cosech / (q * depth) : 0.0;
     for (std::size_t i = 0; i < slants.size(); ++i) {
         const double m = slants[i];
-        const double b1 =
-            3.0 * slab.albedo * sources.beams[i].lux[channel] / (4.0 * std::numbers::pi);
+        const double b1 = 3.0 * slab.albedo * sources.beams[i].lux[channel] / (4.0 * std::numbers::pi);
         const double b0 = b1 * slab.g / m;
         // Zero where the beam falls off as the diffuse light does: next to it the sum of both stays right.
         const double gap = m * m - k * k;
@@ -181,36 +188,30 @@ Slab slab_of(const Veil::Segment& s, int channel, const VeilSources& sources,
     return slab;
 }
 
-}  // namespace
+constexpr double kHalfFlux = 2.0 / 3.0;
 
-// I0 at the ends of all segments: continuous, and so is I1; from above comes the sky, from below what the
-// ground sends back (Marshak's conditions).
-void Veil::light_channel(int channel) noexcept {
-    constexpr double kHalfFlux = 2.0 / 3.0;
-    std::array<Slab, kMostSegments> slabs;
-    for (std::size_t i = 0; i < count_; ++i)
-        slabs[i] = slab_of(segments_[i], channel, sources_, slants_);
-    double beam_top = 0.0;
-    double beam_ground = 0.0;
-    for (std::size_t i = 0; i < slants_.size(); ++i) {
-        const double level = sources_.beams[i].lux[channel] / (std::numbers::pi * slants_[i]);
-        beam_top += level;
-        beam_ground += level * std::exp(-slants_[i] * segments_[0].low_depth);
-    }
-    const double albedo = std::clamp(sources_.ground_albedo, 0.0, 1.0);
-    const double above = sources_.above_cd_m2[channel];
+// On level ground and over the top, of both beams.
+struct LevelBeams {
+    double top = 0.0;
+    double ground = 0.0;
+};
 
-    // Thomas's algorithm from the ground up: value[i] = right[i] + ratio[i] * value[i + 1].
-    std::array<double, kMostSegments + 1> ratio{};
-    std::array<double, kMostSegments + 1> value{};
+// I0 at the ends of all segments, from the ground up: continuous, and so is I1; from above comes the sky,
+// from below what the ground sends back (Marshak's conditions). Thomas's algorithm: value[i] = right[i] +
+// ratio[i]
+// * value[i + 1].
+void solve_even(std::span<const Slab> slabs, const LevelBeams& beams, double albedo, double above,
+                std::span<double> value) noexcept {
+    std::array<double, Veil::kMostSegments + 1> ratio{};
     const double reflects = kHalfFlux * (1.0 + albedo);
-    const Slab& first = slabs[0];
+    const Slab& first = slabs.front();
     double diagonal = 1.0 - albedo + reflects * first.conducts;
     ratio[0] = reflects * first.passes / diagonal;
-    value[0] = (albedo * beam_ground + reflects * (first.bottom1 - first.passes * first.top0 +
-                                                   first.conducts * first.bottom0)) /
+    value[0] = (albedo * beams.ground +
+                reflects * (first.bottom1 - first.passes * first.top0 + first.conducts * first.bottom0)) /
                diagonal;
-    for (std::size_t i = 1; i < count_; ++i) {
+    const std::size_t count = slabs.size();
+    for (std::size_t i = 1; i < count; ++i) {
         const Slab& under = slabs[i - 1];
         const Slab& over = slabs[i];
         const double right = over.bottom1 - under.top1 - over.passes * over.top0 +
@@ -220,12 +221,31 @@ void Veil::light_channel(int channel) noexcept {
         ratio[i] = over.passes / diagonal;
         value[i] = (right + under.passes * value[i - 1]) / diagonal;
     }
-    const Slab& last = slabs[count_ - 1];
-    const double right = above - kHalfFlux * (last.top1 - last.conducts * last.top0 + last.passes * last.bottom0);
-    diagonal = 1.0 + kHalfFlux * (last.conducts - last.passes * ratio[count_ - 1]);
-    value[count_] = (right + kHalfFlux * last.passes * value[count_ - 1]) / diagonal;
-    for (std::size_t i = count_; i-- > 0;)
+    const Slab& last = slabs.back();
+    const double right =
+        above - kHalfFlux * (last.top1 - last.conducts * last.top0 + last.passes * last.bottom0);
+    diagonal = 1.0 + kHalfFlux * (last.conducts - last.passes * ratio[count - 1]);
+    value[count] = (right + kHalfFlux * last.passes * value[count - 1]) / diagonal;
+    for (std::size_t i = count; i-- > 0;)
         value[i] += ratio[i] * value[i + 1];
+}
+
+}  // namespace
+
+void Veil::light_channel(int channel) noexcept {
+    std::array<Slab, kMostSegments> slabs;
+    for (std::size_t i = 0; i < count_; ++i)
+        slabs[i] = slab_of(segments_[i], channel, sources_, slants_);
+    LevelBeams beams;
+    for (std::size_t i = 0; i < slants_.size(); ++i) {
+        const double level = sources_.beams[i].lux[channel] / (std::numbers::pi * slants_[i]);
+        beams.top += level;
+        beams.ground += level * std::exp(-slants_[i] * segments_[0].low_depth);
+    }
+    const double albedo = std::clamp(sources_.ground_albedo, 0.0, 1.0);
+    const double above = sources_.above_cd_m2[channel];
+    std::array<double, kMostSegments + 1> value{};
+    solve_even({slabs.data(), count_}, beams, albedo, above, value);
 
     for (std::size_t i = 0; i < count_; ++i) {
         const Slab& slab = slabs[i];
@@ -239,8 +259,8 @@ void Veil::light_channel(int channel) noexcept {
         s.high_slope[channel] = slab.albedo * slab.g * high_flow;
         s.low_slope[channel] = slab.albedo * slab.g * low_flow;
         if (i == 0) {
-            const double lit = std::max(value[0] + kHalfFlux * low_flow, 0.0) + beam_ground;
-            ground_share_[channel] = above + beam_top > 0.0 ? lit / (above + beam_top) : 1.0;
+            const double lit = std::max(value[0] + kHalfFlux * low_flow, 0.0) + beams.ground;
+            ground_share_[channel] = above + beams.top > 0.0 ? lit / (above + beams.top) : 1.0;
         }
     }
 }

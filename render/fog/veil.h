@@ -46,8 +46,8 @@ class Veil {
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
 
     struct Seen {
-        /// Part of what lies behind that is seen: of sharp things, and of smooth light, which loses nothing by
-        /// being scattered by a few degrees.
+        /// Part of what lies behind that is seen: of sharp things, and of smooth light, which loses nothing
+        /// by being scattered by a few degrees.
         double passed = 1.0;
         double smooth_passed = 1.0;
         glm::dvec3 added_cd_m2{0.0};

@@ -30,9 +30,11 @@ TEST(RvrVerb, ReadsWhatIsKnownAndTheLights) {
 }
 
 TEST(RvrVerb, TakesExactlyOneOfVisibilityExtinctionAndRange) {
-    for (const std::vector<const char*>& words :
-         {std::vector<const char*>{}, {"--visibility", "300", "--rvr", "350"}, {"--visibility", "nan"},
-          {"--extinction", "-1"}, {"--rvr", "0"}}) {
+    for (const std::vector<const char*>& words : {std::vector<const char*>{},
+                                                  {"--visibility", "300", "--rvr", "350"},
+                                                  {"--visibility", "nan"},
+                                                  {"--extinction", "-1"},
+                                                  {"--rvr", "0"}}) {
         const Invocation invocation = invoke(words);
         EXPECT_EQ(invocation.exit_status, 2);
         EXPECT_TRUE(invocation.error.starts_with("skyig rvr: ")) << invocation.error;

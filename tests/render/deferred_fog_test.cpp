@@ -49,8 +49,7 @@ double luminance_at(const std::vector<float>& rgb, int x, int row_from_top) {
     return static_cast<double>(shaders32::luminance_709(glm::vec3{p[0], p[1], p[2]}));
 }
 
-void add_fog(Scene& scene, double top_m, double visibility_m,
-             Obscurant::Kind kind = Obscurant::Kind::kFog) {
+void add_fog(Scene& scene, double top_m, double visibility_m, Obscurant::Kind kind = Obscurant::Kind::kFog) {
     scene.weather.obscurants[scene.weather.obscurant_count++] =
         Obscurant{.kind = kind, .top_m = top_m, .top_band_m = 50.0, .extinction_per_m = 2.996 / visibility_m};
 }

@@ -46,8 +46,8 @@ TEST(Rvr, AllardIsWhereBisectionFindsIt) {
 
 TEST(Rvr, TheThresholdPassesThroughTheStepsOfTheManual) {
     // Night, twilight, day, bright day, at the middle or the end of their backgrounds: within a factor of 2.
-    for (const auto& [background, lux] : {std::pair{15.0, 8e-7}, std::pair{200.0, 1e-5},
-                                          std::pair{3000.0, 1e-4}, std::pair{40e3, 1e-3}}) {
+    for (const auto& [background, lux] :
+         {std::pair{15.0, 8e-7}, std::pair{200.0, 1e-5}, std::pair{3000.0, 1e-4}, std::pair{40e3, 1e-3}}) {
         const double factor = light_threshold_lux(background) / lux;
         std::printf("%6.0f cd/m2: %.2e lx, %.2f of the step\n", background, lux * factor, factor);
         EXPECT_GT(factor, 1.0 / 1.9);

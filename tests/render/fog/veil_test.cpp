@@ -162,8 +162,7 @@ TEST(Veil, HardInputGivesFiniteLight) {
                         sources.beams[0].direction_enu = direction_of({sun_rad, 0.0});
                         veil.light(sources);
                         for (const double view_rad : {-0.5 * kPi, -0.1, 0.0, sun_rad, 0.5 * kPi}) {
-                            const auto seen =
-                                veil.seen(direction_of({view_rad, 0.0}), Veil::kEndless_m);
+                            const auto seen = veil.seen(direction_of({view_rad, 0.0}), Veil::kEndless_m);
                             ASSERT_TRUE(std::isfinite(glm::dot(seen.added_cd_m2, glm::dvec3{1.0})) &&
                                         std::isfinite(seen.distance_m));
                             ASSERT_GE(std::min(seen.passed, seen.added_cd_m2.x), 0.0);
@@ -193,8 +192,8 @@ TEST(Veil, CutLayersAreOneAndTheEyeCrossesTheirEndsSmoothly) {
     for (const double view_rad : {-1.2, -0.3, 0.05, 0.4, 1.5}) {
         for (const double eye_m : {2.0, 50.0, 120.0, 300.0}) {
             const double a = seen_from(one, eye_m, view_rad).added_cd_m2.y;
-            apart = std::max(apart, std::abs(seen_from(three, eye_m, view_rad).added_cd_m2.y - a) /
-                                        std::max(a, 100.0));
+            apart = std::max(
+                apart, std::abs(seen_from(three, eye_m, view_rad).added_cd_m2.y - a) / std::max(a, 100.0));
         }
         const double under = seen_from(one, 199.999, view_rad).added_cd_m2.y;
         const double over = seen_from(one, 200.001, view_rad).added_cd_m2.y;
@@ -210,8 +209,7 @@ TEST(Veil, KeepsTheLightOfFogAndLosesThatOfSmoke) {
     VeilSources sources = midday();
     sources.ground_albedo = 0.0;
     for (const double depth : {0.5, 4.0, 32.0}) {
-        const std::array fog{
-            Obscurant{.base_m = 0.0, .top_m = 10.0, .extinction_per_m = 0.1 * depth}};
+        const std::array fog{Obscurant{.base_m = 0.0, .top_m = 10.0, .extinction_per_m = 0.1 * depth}};
         Veil veil = veil_of(fog, 0.0);
         veil.light(sources);
         const double transmitted = veil.ground_share().y;
@@ -224,8 +222,8 @@ TEST(Veil, KeepsTheLightOfFogAndLosesThatOfSmoke) {
         std::printf("depth %4.1f: through %.4f, back %.4f\n", depth, transmitted, up / in);
         EXPECT_NEAR(transmitted + up / in, 1.0, 0.004);
     }
-    const std::array smoke{Obscurant{
-        .kind = Obscurant::Kind::kSmoke, .base_m = 0.0, .top_m = 100.0, .extinction_per_m = 0.05}};
+    const std::array smoke{
+        Obscurant{.kind = Obscurant::Kind::kSmoke, .base_m = 0.0, .top_m = 100.0, .extinction_per_m = 0.05}};
     Veil veil = veil_of(smoke, 0.0);
     veil.light(sources);
     EXPECT_LT(veil.ground_share().y, 0.2);
@@ -268,8 +266,9 @@ TEST(Veil, HasTheLightOfTheTrueSlab) {
         const double elevation = above ? view - 0.5 * kPi : 0.5 * kPi - view;
         const auto seen = veil.seen(direction_of({elevation, azimuth}), above ? 1.0 / std::cos(view) : 1e7);
         const double brf = kPi * seen.added_cd_m2.y / std::cos(sun);
-        const std::string bin = std::string(above ? "above" : "below") +
-                                (depth <= 2.0 ? " 0.5-2" : depth <= 8.0 ? " 4-8" : " 16-64");
+        const std::string bin = std::string(above ? "above" : "below") + (depth <= 2.0   ? " 0.5-2"
+                                                                          : depth <= 8.0 ? " 4-8"
+                                                                                         : " 16-64");
         errors[bin].push_back(std::abs(brf / truth - 1.0));
     }
     ASSERT_EQ(errors.size(), 6U);
