@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "render/deferred.h"
 #include "render/discs.h"
@@ -28,6 +29,7 @@ class DeferredPass {
         int direction, rgb;
     };
     void upload(const DeferredAir& air);
+    void upload_veil(const DeferredAir& air);
 
     gl::Program program_;
     gl::Mesh triangle_;
@@ -38,6 +40,13 @@ class DeferredPass {
     gl::Texture extinction_;
     std::array<gl::Texture, 2> rest_;
     std::array<gl::Texture, 2> haze_;
+    struct VeilUniforms {
+        int count, radius, slants, molecules, aerosol;
+        std::array<int, 2> lux, direction, beyond;
+    };
+    VeilUniforms veil_;
+    gl::Texture veil_segments_;
+    std::vector<float> veil_texels_;
     std::uint64_t uploaded_ = 0;
 };
 

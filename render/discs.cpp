@@ -69,7 +69,8 @@ DiscFrame sunlit_frame(const Sun& sun, const sky::AirTables& air, const SkyLight
     for (std::size_t row = 0; row < DiscFrame::kRows; ++row) {
         const glm::dvec3 illuminance =
             air.direct_sun_xyz(light.eye_height_m, frame.straight_elevation_rad[row], sun.distance_au);
-        frame.set_light(row, rec709_from_xyz(glm::vec3{illuminance / solid_angle}));
+        const double passes = light.veil_passes(frame.straight_elevation_rad[row]);
+        frame.set_light(row, rec709_from_xyz(glm::vec3{passes * illuminance / solid_angle}));
     }
     return frame;
 }
@@ -200,8 +201,9 @@ void MoonDisc::prepare(const Scene& scene, const SkyFrame& sky, double pixel_rad
     const SkyLight& light = sky.light();
     DiscFrame frame = disc_frame(moon.direction_enu, moon.angular_radius_rad, pixel_rad, light);
     for (std::size_t row = 0; row < DiscFrame::kRows; ++row) {
-        frame.set_light(row, glm::vec3{sky.air().transmittance_rgb(light.eye_height_m,
-                                                                   frame.straight_elevation_rad[row])});
+        frame.set_light(
+            row, glm::vec3{light.veil_passes(frame.straight_elevation_rad[row]) *
+                           sky.air().transmittance_rgb(light.eye_height_m, frame.straight_elevation_rad[row])});
     }
     frame.brightness = static_cast<float>(night::moon_mean_cd_m2(moon, scene.sun.distance_au));
     pass_.prepare(sky, frame, tone, dither);

@@ -42,6 +42,8 @@ struct DomeLayout {
     std::uint64_t air = 0;
     /// The ground mirrors the sources.
     bool sea = false;
+    /// SkyVeil::bends_revision()
+    std::uint64_t veil = 0;
 };
 
 [[nodiscard]] DomeLayout dome_layout(const SkyLight& light, double edge_rad, double adaptation_cd_m2,

@@ -103,6 +103,7 @@ Cost cost_of(Pass pass) {
         case Pass::kSunSky:
         case Pass::kMoonSky:
         case Pass::kNightSky:
+        case Pass::kVeil:
             return Cost::kNewTable;
         case Pass::kClouds:
         case Pass::kNearClouds:
@@ -178,9 +179,9 @@ void plan_night(Plan& plan, double sun_rad) {
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables", "sun sky",    "moon sky",      "night sky", "clouds",    "near clouds",
-        "dome",       "waves",      "milky way",     "stars",     "corona",    "sun disc",
-        "moon disc",  "wet things", "precipitation", "sun glare", "moon glare"};
+        "air tables",  "sun sky",   "moon sky",   "night sky",     "veil",      "clouds",
+        "near clouds", "dome",      "waves",      "milky way",     "stars",     "corona",
+        "sun disc",    "moon disc", "wet things", "precipitation", "sun glare", "moon glare"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -220,6 +221,7 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kAirTables, {air_stale, air_stale ? "the air is new" : "the air has not changed"});
     plan_skies(plan, scene, held, sun_rad, moon_rad);
     plan_night(plan, sun_rad);
+    put(plan, Pass::kVeil, {false, "not decided yet"});
     put(plan, Pass::kClouds, {false, "not decided yet"});
     put(plan, Pass::kNearClouds, {false, "not decided yet"});
     put(plan, Pass::kDome, {true, "smooth light of all directions"});
@@ -248,6 +250,17 @@ DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& qu
     return {std::clamp(held.columns, least.columns, ample.columns),
             std::clamp(held.sky_rows, least.sky_rows, ample.sky_rows),
             std::clamp(held.ground_rows, least.ground_rows, ample.ground_rows)};
+}
+
+void plan_veil(Plan& plan, const Scene& scene, std::size_t segments) noexcept {
+    if (scene.weather.obscurant_count == 0) {
+        put(plan, Pass::kVeil, {false, "there is no fog, haze, dust or the like"});
+    } else if (segments == 0) {
+        put(plan, Pass::kVeil, {false, "what there is, is nothing where the eye is"});
+    } else {
+        put(plan, Pass::kVeil, {true, "it rides on the dome's vertices, free of cost by pixel"});
+    }
+    plan.passes[static_cast<std::size_t>(Pass::kVeil)].resolution = {static_cast<int>(segments), 0};
 }
 
 void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bool near_shown) noexcept {

@@ -98,8 +98,8 @@ struct Plan {
 [[nodiscard]] double direction_table_error_codes(const sky::SkyViewSize& size) noexcept;
 
 /// \param scene  the frame; \param held  what is in the tables; \param refraction  of the frame's eye and
-/// air. Deterministic: equal input gives an equal plan. Dome, waves, stars, the Milky Way and glare are left
-/// for plan_dome(), plan_waves(), plan_stars(), plan_milky_way() and plan_glare(), which need the light that
+/// air. Deterministic: equal input gives an equal plan. Veil, dome, waves, stars, the Milky Way and glare are left
+/// for plan_veil(), plan_dome(), plan_waves(), plan_stars(), plan_milky_way() and plan_glare(), which need the light that
 /// this plan leads to.
 [[nodiscard]] Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction,
                              const Quality& quality = {}) noexcept;
@@ -107,6 +107,9 @@ struct Plan {
 /// Decides how fine the dome is laid out: the smallest size that keeps to the budget, but no smaller than
 /// `held` while that is not clearly too fine. \param held  the dome in use
 [[nodiscard]] DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& quality) noexcept;
+
+/// Decides on the veil of obscurants. \param segments  of fog::Veil
+void plan_veil(Plan& plan, const Scene& scene, std::size_t segments) noexcept;
 
 /// Decides on the cloud maps. \param map_size  texels on the side of a half; \param near_size  likewise
 /// \param near_shown  whether clouds may stand round the eye

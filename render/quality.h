@@ -12,6 +12,7 @@ enum class Pass {
     kSunSky,      ///< direction table of sunlit air
     kMoonSky,     ///< direction table of moonlit air
     kNightSky,    ///< direction table of airglow, zodiacal light, even starlight, towns
+    kVeil,        ///< light of fog, haze, dust and their like, on the dome's vertices
     kClouds,      ///< map of far clouds for all channels
     kNearClouds,  ///< map of clouds round the eye
     kDome,        ///< smooth light of all directions, toned at the vertices
@@ -26,7 +27,7 @@ enum class Pass {
     kSunGlare,       ///< the veil round the disc in the eye
     kMoonGlare,
 };
-inline constexpr std::size_t kPassCount = 17;
+inline constexpr std::size_t kPassCount = 18;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 

@@ -88,6 +88,8 @@ void SkyFrame::prepare(const Scene& scene, double pixel_rad, double smallest_pix
     plan_ = make_plan(scene, tables_.held(scene), refraction, quality_);
     tables_.update(scene, plan_);
     light_ = tables_.light(scene, plan_, refraction);
+    veil_.lay(scene, tables_.air(), static_cast<double>(kLightStep), light_);
+    plan_veil(plan_, scene, veil_.veil().segments().size());
     take_weather(scene);
     air_between_fresh_ = false;
     if (air_between_) air_between(scene);
@@ -270,7 +272,7 @@ void SkyFrame::dazzle(const Scene& scene) {
 void SkyFrame::veil(const GlareSource& source, std::vector<Glare>& glares, VeilMade& made) {
     const double adaptation = adaptation_.luminance_cd_m2();
     const bool serves =
-        made.tables == tables_.revision() && !tables_.jumped() &&
+        made.tables == tables_.revision() && made.fog == light_.veil_revision && !tables_.jumped() &&
         std::abs(adaptation - made.adaptation_cd_m2) <= kAdaptationStep * made.adaptation_cd_m2 &&
         still_serves(made.source, source);
     if (serves) {
@@ -280,12 +282,13 @@ void SkyFrame::veil(const GlareSource& source, std::vector<Glare>& glares, VeilM
     }
     for (std::size_t screen = 0; screen < glares.size(); ++screen)
         glares[screen].update(source, light_, displays_[screen], tones_[screen]);
-    made = {source, tables_.revision(), adaptation};
+    made = {source, tables_.revision(), adaptation, light_.veil_revision};
 }
 
 void SkyFrame::refresh_dome(double pixel_rad) {
     const double adaptation = adaptation_.luminance_cd_m2();
-    const DomeLayout wanted = dome_layout(light_, pixel_rad, adaptation, tables_.air_in_use());
+    DomeLayout wanted = dome_layout(light_, pixel_rad, adaptation, tables_.air_in_use());
+    wanted.veil = veil_.bends_revision();
     const bool at_once = shaded_.tables == 0 || tables_.jumped();
     // A fade that runs is not begun anew for nodes that only could stand better.
     const bool lay = at_once || !still_serves(dome_.layout(), wanted) ||
@@ -297,6 +300,7 @@ void SkyFrame::refresh_dome(double pixel_rad) {
     const bool scaled = scale_moved(light_.sun.scale_xyz, shaded_.sun_scale) ||
                         scale_moved(light_.moon.scale_xyz, shaded_.moon_scale) || turned ||
                         std::abs(light_.night_share - shaded_.night_share) > kLightStep ||
+                        light_.veil_revision != shaded_.veil ||
                         std::abs(light_.film - shaded_.film) > static_cast<double>(kLightStep) ||
                         flash_moved(flash_cd_m2, shaded_.flash_cd_m2, adaptation);
     const bool toned =
@@ -320,6 +324,7 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         shaded_.moon_scale = light_.moon.scale_xyz;
         shaded_.moon_from_sun_rad = wanted.second_azimuth_rad;
         shaded_.night_share = light_.night_share;
+        shaded_.veil = light_.veil_revision;
         shaded_.flash_cd_m2 = flash_cd_m2;
         shaded_.film = light_.film;
     }

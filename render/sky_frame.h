@@ -20,6 +20,7 @@
 #include "render/scene.h"
 #include "render/sea_mesh.h"
 #include "render/sky_light.h"
+#include "render/sky_veil.h"
 #include "render/target.h"
 
 namespace skyig::render {
@@ -137,6 +138,7 @@ class SkyFrame {
         GlareSource source;
         std::uint64_t tables = 0;
         double adaptation_cd_m2 = 0.0;
+        std::uint64_t fog = 0;
     };
     void dazzle(const Scene& scene);
     void veil(const GlareSource& source, std::vector<Glare>& glares, VeilMade& made);
@@ -150,6 +152,7 @@ class SkyFrame {
     Quality quality_;
     Target target_;
     LightTables tables_;
+    SkyVeil veil_;
     eye::Adaptation adaptation_;
     std::vector<Glare> sun_glares_;  // one a screen
     std::vector<Glare> moon_glares_;
@@ -197,6 +200,7 @@ class SkyFrame {
         glm::vec3 moon_scale{-1.0F};
         double moon_from_sun_rad = 0.0;
         float night_share = 0.0F;
+        std::uint64_t veil = 0;
         float flash_cd_m2 = 0.0F;
         double film = 0.0;
     } shaded_;

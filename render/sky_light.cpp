@@ -7,6 +7,7 @@
 #include "render/colour.h"
 #include "render/night/natural_light.h"
 #include "render/night/starlight.h"
+#include "render/sky/geometry.h"
 
 namespace skyig::render {
 
@@ -103,14 +104,65 @@ double SkyLight::straight_elevation_rad(double elevation_rad) const noexcept {
 
 glm::vec3 SkyLight::smooth_rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept {
     const double straight_rad = straight_elevation_rad(elevation_rad);
-    const double above_rad = straight_rad - straight_horizon_rad;
     const bool ground =
         side == Side::kGround || (side == Side::kByElevation && elevation_rad < horizon_elevation_rad);
+    const glm::vec3 clear = clear_rgb_cd_m2(straight_rad, elevation_rad, azimuth_rad, ground);
+    return veil != nullptr ? veiled(clear, straight_rad, azimuth_rad, ground) : clear;
+}
+
+glm::vec3 SkyLight::clear_rgb_cd_m2(double straight_rad, double elevation_rad, double azimuth_rad,
+                                    bool ground) const noexcept {
+    const double above_rad = straight_rad - straight_horizon_rad;
     const glm::vec3 rgb = rec709_from_xyz(xyz_of(sun, above_rad, azimuth_rad, ground) +
                                           xyz_of(moon, above_rad, azimuth_rad, ground)) +
                           dark_sky(*this, straight_rad, azimuth_rad, ground) +
                           flash_cd_m2(*this, elevation_rad, ground);
     return ground && film > 0.0 ? rgb + film_cd_m2(*this, elevation_rad, azimuth_rad) : rgb;
+}
+
+// Of the straight ray: the ground's, or past all veils.
+double SkyLight::end_m(double straight_rad, bool ground) const noexcept {
+    if (!ground) return fog::Veil::kEndless_m;
+    constexpr sky::Shell kEarth{kEarthRadius_m, 0.0};
+    return kEarth.distance_to_ground_m(std::max(eye_height_m, 0.0),
+                                       std::sin(std::min(straight_rad, straight_horizon_rad)));
+}
+
+shaders64::VeilSum SkyLight::veil_sum(double straight_rad, double azimuth_rad, bool ground) const noexcept {
+    // From one side of the horizon only, as the tables are asked.
+    const double own_rad =
+        ground ? std::min(straight_rad, straight_horizon_rad) : std::max(straight_rad, straight_horizon_rad);
+    return veil->sum(direction_of({own_rad, azimuth_rad}), end_m(straight_rad, ground));
+}
+
+// Behind the veil the ground lies in what light it leaves. Before a veil far away lies clear air: of the
+// sky's own light in that direction as much as there is of all its air, before the ground as at the horizon.
+glm::vec3 SkyLight::veiled(const glm::vec3& clear_cd_m2, double straight_rad, double azimuth_rad,
+                           bool ground) const noexcept {
+    constexpr double kSeenThrough = 1e-3;
+    const shaders64::VeilSum sum = veil_sum(straight_rad, azimuth_rad, ground);
+    const double sine = std::sin(straight_rad);
+    glm::dvec3 behind{clear_cd_m2};
+    if (ground) {
+        const glm::dvec3 shown =
+            shaders64::veil_air_passes(-std::max(eye_height_m, 0.0), end_m(straight_rad, true), front_air);
+        behind *= 1.0 + shown * (veil->ground_share() - 1.0);
+    }
+    const double veil_m = shaders64::veil_distance_m(sum);
+    const glm::dvec3 passes = shaders64::veil_air_passes(
+        shaders64::veil_rise_m(veil_m, {sine, veil->eye_radius_m()}), veil_m, front_air);
+    glm::dvec3 endless{clear_cd_m2};
+    if (!ground) {
+        endless /= 1.0 - shaders64::veil_all_air_passes(sine, front_air);
+    } else if ((1.0 - passes.z) * shaders64::veil_lost(sum.cut_depth) > kSeenThrough) {
+        endless =
+            glm::dvec3{clear_rgb_cd_m2(straight_horizon_rad, horizon_elevation_rad, azimuth_rad, false)};
+    }
+    return glm::vec3{shaders64::veil_in_air(sum, passes, endless, behind)};
+}
+
+double SkyLight::veil_passes(double straight_rad) const noexcept {
+    return veil != nullptr ? veil->passed(std::sin(std::max(straight_rad, straight_horizon_rad))) : 1.0;
 }
 
 glm::vec3 SkyLight::rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept {
@@ -126,7 +178,11 @@ glm::vec3 SkyLight::rgb_cd_m2(double elevation_rad, double azimuth_rad, Side sid
 glm::vec3 SkyLight::belt_passes(double elevation_rad) const noexcept {
     if (night == nullptr) return glm::vec3{0.0F};
     const double above_rad = straight_elevation_rad(elevation_rad) - straight_horizon_rad;
-    return milky_way.share * night->transmittance(above_rad) * glm::vec3{night::natural_colours().starlight};
+    const glm::vec3 clear =
+        milky_way.share * night->transmittance(above_rad) * glm::vec3{night::natural_colours().starlight};
+    if (veil == nullptr) return clear;
+    return static_cast<float>(std::exp(-veil_sum(above_rad + straight_horizon_rad, 0.0, false).cut_depth)) *
+           clear;
 }
 
 double SkyLight::belt_above_horizon(double elevation_rad) const noexcept {
@@ -154,6 +210,12 @@ SlopeLight SkyLight::of_slopes(double elevation_rad, double azimuth_rad) const n
         if (lit != &glittering()) continue;
         sum.glitter = rec709_from_xyz(std::min(lit->beam_share, share) * lit->scale_xyz * slopes.glitter_xyz);
         sum.density = slopes.density;
+    }
+    if (veil != nullptr) {
+        const auto passed = static_cast<float>(
+            std::exp(-veil_sum(above_rad + straight_horizon_rad, azimuth_rad, true).cut_depth));
+        for (glm::vec3* part : {&sum.east, &sum.north, &sum.bend_cd_m2, &sum.glitter})
+            *part *= passed;
     }
     return sum;
 }

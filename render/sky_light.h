@@ -2,9 +2,11 @@
 // and discs, the adaptation and the tests all ask.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "render/cloud/lightning.h"
+#include "render/fog/veil.h"
 #include "render/geometry.h"
 #include "render/night/milky_way_map.h"
 #include "render/night/night_sky.h"
@@ -88,6 +90,12 @@ struct SkyLight {
     float night_share = 1.0F;
     CloudedAir night_clouded;
     LitBelt milky_way;
+    /// What fog and its like lay before all of this; null where there is none.
+    const fog::Veil* veil = nullptr;
+    /// Rises when the veil shows otherwise.
+    std::uint64_t veil_revision = 0;
+    /// Before a veil far away.
+    shaders64::VeilAir front_air{};
     /// What lightning adds to everything.
     cloud::FlashLight flash;
     /// Part of the land under a film of water that mirrors the sky, 0..1.
@@ -112,6 +120,10 @@ struct SkyLight {
     [[nodiscard]] glm::vec3 smooth_rgb_cd_m2(double elevation_rad, double azimuth_rad,
                                              Side side) const noexcept;
 
+    /// Part of the light of a disc or star that the veil lets through. \param straight_rad  as
+    /// straight_elevation_rad() has it
+    [[nodiscard]] double veil_passes(double straight_rad) const noexcept;
+
     /// Factors of the belt's luminance outside the air that make its light at the eye, without
     /// belt_above_horizon(). Linear Rec.709.
     [[nodiscard]] glm::vec3 belt_passes(double elevation_rad) const noexcept;
@@ -120,6 +132,15 @@ struct SkyLight {
     [[nodiscard]] double belt_above_horizon(double elevation_rad) const noexcept;
 
     static constexpr double kBeltEdge = 0.01;
+
+  private:
+    [[nodiscard]] glm::vec3 clear_rgb_cd_m2(double straight_rad, double elevation_rad, double azimuth_rad,
+                                            bool ground) const noexcept;
+    [[nodiscard]] shaders64::VeilSum veil_sum(double straight_rad, double azimuth_rad,
+                                              bool ground) const noexcept;
+    [[nodiscard]] glm::vec3 veiled(const glm::vec3& clear_cd_m2, double straight_rad, double azimuth_rad,
+                                   bool ground) const noexcept;
+    [[nodiscard]] double end_m(double straight_rad, bool ground) const noexcept;
 };
 
 }  // namespace skyig::render

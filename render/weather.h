@@ -94,7 +94,7 @@ struct CloudLayer {
     /// Layers of unlike seeds have unlike clouds.
     std::uint32_t seed = 0;
     /// Everywhere, if none.
-    std::optional<WeatherArea> area;
+    std::optional<WeatherArea> area{};
     /// Of the model kLayer; as its genus, if none.
     std::optional<CloudLook> look;
 
@@ -116,7 +116,7 @@ struct Obscurant {
     double coverage = 1.0;
     glm::dvec2 drift_m{0.0};
     std::uint32_t seed = 0;
-    std::optional<WeatherArea> area;
+    std::optional<WeatherArea> area{};
 
     friend bool operator==(const Obscurant&, const Obscurant&) = default;
 };

@@ -14,6 +14,7 @@
 #include "clients/skyig/ephem/star_name.h"
 #include "clients/skyig/metar_command.h"
 #include "clients/skyig/options.h"
+#include "clients/skyig/rvr_command.h"
 #include "clients/skyig/sky_command.h"
 #include "clients/skyig/status/http_get.h"
 #include "clients/skyig/still/still_command.h"
@@ -27,9 +28,10 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 15> kVerbs{"host",   "shot",  "plan",   "channels", "bench",
+constexpr std::array<std::string_view, 16> kVerbs{"host",   "shot",  "plan",   "channels", "bench",
                                                   "ephem",  "cloud", "decode", "metar",    "replay",
-                                                  "record", "sky",   "status", "top",      "tone"};
+                                                  "record", "sky",   "status", "top",      "tone",
+                                                  "rvr"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -349,6 +351,7 @@ struct Verbs {
     StatusOptions top;
     SkyOptions sky;
     ToneOptions tone;
+    RvrOptions rvr;
     std::string order = "little";
     std::string horizon = "almanac";
 };
@@ -384,6 +387,7 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
     add_sky(*app.add_subcommand("sky", "luminance and colour of the sky for a table of directions"),
             verbs.sky);
     add_tone(app, verbs.tone);
+    add_rvr(app, verbs.rvr);
 }
 
 void require_one_body(const EphemOptions& options) {
@@ -410,6 +414,7 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     if (app.got_subcommand("top")) invocation.options = verbs.top;
     if (app.got_subcommand("sky")) invocation.options = verbs.sky;
     if (app.got_subcommand("tone")) invocation.options = verbs.tone;
+    if (app.got_subcommand("rvr")) invocation.options = verbs.rvr;
 }
 
 std::string usage_error(const char* what, const char* verb) {

@@ -15,6 +15,7 @@
 #include "clients/skyig/plan.h"
 #include "clients/skyig/record.h"
 #include "clients/skyig/replay.h"
+#include "clients/skyig/rvr.h"
 #include "clients/skyig/shot.h"
 #include "clients/skyig/sky.h"
 #include "clients/skyig/status.h"
@@ -40,6 +41,7 @@ int run(int argc, char** argv) {
     if (const auto* replay = std::get_if<ReplayOptions>(&invocation.options)) return run_replay(*replay);
     if (const auto* record = std::get_if<RecordOptions>(&invocation.options)) return run_record(*record);
     if (const auto* status = std::get_if<StatusOptions>(&invocation.options)) return run_status(*status);
+    if (const auto* rvr = std::get_if<RvrOptions>(&invocation.options)) return run_rvr(*rvr);
     if (const auto* tone = std::get_if<ToneOptions>(&invocation.options)) return run_tone(*tone);
     if (const auto* sky = std::get_if<SkyOptions>(&invocation.options)) return run_sky(*sky);
     return invocation.exit_status;

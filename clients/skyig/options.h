@@ -250,11 +250,22 @@ struct ToneOptions {
     std::vector<double> luminance_cd_m2;
 };
 
+/// skyig rvr: one of the first three is given.
+struct RvrOptions {
+    std::optional<double> visibility_m;
+    std::optional<double> extinction_per_m;
+    std::optional<double> rvr_m;
+    double intensity_cd = 10e3;
+    double background_cd_m2 = 10e3;
+    double contrast = 0.05;
+    bool json = false;
+};
+
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
     std::variant<std::monostate, HostOptions, ShotOptions, PlanOptions, ChannelsOptions, BenchOptions,
                  EphemOptions, CloudOptions, DecodeOptions, MetarOptions, ReplayOptions, RecordOptions,
-                 SkyOptions, StatusOptions, ToneOptions>
+                 SkyOptions, StatusOptions, ToneOptions, RvrOptions>
         options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)

@@ -18,6 +18,7 @@ using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, 
 #include "render/shaders/eye/tone.glsl"
 // After the tone curve that it builds on.
 #include "render/shaders/eye/fovea.glsl"
+#include "render/shaders/fog/veil.glsl"
 #include "render/shaders/night/moon.glsl"
 #include "render/shaders/sky/aerial.glsl"
 #include "render/shaders/sky/cie.glsl"
@@ -37,6 +38,7 @@ using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, 
 #include "render/shaders/eye/tone.glsl"
 // After the tone curve that it builds on.
 #include "render/shaders/eye/fovea.glsl"
+#include "render/shaders/fog/veil.glsl"
 #include "render/shaders/night/moon.glsl"
 #include "render/shaders/sky/aerial.glsl"
 #include "render/shaders/sky/cie.glsl"

@@ -135,6 +135,9 @@ TEST_F(Allocation, NorDoFramesWithAnotherRenderersPicture) {
     for (auto& [name, scene] : four_times()) {
         if (name == "dusk") add_storm(scene);
         add_view(scene, symmetric_frustum(30.0, 64, 64), view_from_enu(180.0, 10.0, 0.0, 0.0));
+        // Through the top of a fog too.
+        scene.weather.obscurants[scene.weather.obscurant_count++] =
+            Obscurant{.top_m = scene.eye.height_m + 10.0, .top_band_m = 10.0, .extinction_per_m = 0.01};
         Flight flight(channels, scene);
         flight.put_things_at_half_way();
         flight.frames(kWarmUpFrames);
