@@ -98,9 +98,9 @@ struct Plan {
 [[nodiscard]] double direction_table_error_codes(const sky::SkyViewSize& size) noexcept;
 
 /// \param scene  the frame; \param held  what is in the tables; \param refraction  of the frame's eye and
-/// air. Deterministic: equal input gives an equal plan. Veil, dome, waves, stars, the Milky Way and glare are left
-/// for plan_veil(), plan_dome(), plan_waves(), plan_stars(), plan_milky_way() and plan_glare(), which need the light that
-/// this plan leads to.
+/// air. Deterministic: equal input gives an equal plan. Veil, dome, waves, stars, the Milky Way and glare are
+/// left for plan_veil(), plan_dome(), plan_waves(), plan_stars(), plan_milky_way() and plan_glare(), which
+/// need the light that this plan leads to.
 [[nodiscard]] Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction,
                              const Quality& quality = {}) noexcept;
 
@@ -111,8 +111,8 @@ struct Plan {
 /// Decides on the veil of obscurants. \param segments  of fog::Veil
 void plan_veil(Plan& plan, const Scene& scene, std::size_t segments) noexcept;
 
-/// Decides on the cloud maps. \param map_size  texels on the side of a half; \param near_size  likewise \param
-/// near_shown  whether clouds may stand round the eye
+/// Decides on the cloud maps. \param map_size  texels on the side of a half; \param near_size  likewise
+/// \param near_shown  whether clouds may stand round the eye
 void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bool near_shown) noexcept;
 
 /// Decides on the waves of the sea, drawn over `resolution` of the dome's quads. \param waves  that a pixel
