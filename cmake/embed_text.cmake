@@ -1,11 +1,12 @@
-# cmake -DOUT=file.cpp -DROOT=dir "-DFILES=a.glsl|b.frag" -P embed_text.cmake
-# Writes one table of file name -> text, so that the programs carry their shaders.
+# cmake -DOUT=file.cpp -DROOT=dir "-DFILES=a.glsl|b.frag" -DHEADER=a/b.h -DNAMESPACE=a::b -DFUNCTION=text_of
+#   -P embed_text.cmake
+# Writes one table of file name -> text, so that the programs carry their shaders and presets.
 string(REPLACE "|" ";" FILES "${FILES}")
-set(text "#include \"render/shaders/shader_text.h\"\n\nnamespace skyig::render::shaders {\n\n")
-string(APPEND text "std::optional<std::string_view> shader_text(std::string_view path) noexcept {\n")
+set(text "#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\n\n")
+string(APPEND text "std::optional<std::string_view> ${FUNCTION}(std::string_view path) noexcept {\n")
 foreach(file ${FILES})
   file(READ "${ROOT}/${file}" content)
-  string(APPEND text "    if (path == \"${file}\") return std::string_view(R\"shader(${content})shader\");\n")
+  string(APPEND text "    if (path == \"${file}\") return std::string_view(R\"embedded(${content})embedded\");\n")
 endforeach()
-string(APPEND text "    return std::nullopt;\n}\n\n}  // namespace skyig::render::shaders\n")
+string(APPEND text "    return std::nullopt;\n}\n\n}  // namespace ${NAMESPACE}\n")
 file(WRITE "${OUT}" "${text}")

@@ -57,11 +57,12 @@ elseif(CMAKE_BUILD_TYPE STREQUAL "Release")
 endif()
 set(SKYIG_USUAL_TEST_OPTIMISATION ${SKYIG_TEST_OPTIMISATION})
 
-# skyig_test(NAME SOURCES a.cpp ... DEPS target ... [LABELS unit|gl|slow|net] [TIMEOUT s])
+# skyig_test(NAME SOURCES a.cpp ... DEPS target ... [LABELS unit|gl|slow|net] [TIMEOUT s] [DESKTOP])
+# DESKTOP runs it before a virtual X server of its own.
 # Every test program finds its data under SKYIG_TEST_DATA and what this clone may lack under
 # SKYIG_REFERENCE (absent on a lone clone: such a test says so and is skipped).
 function(skyig_test NAME)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "DESKTOP" "TIMEOUT" "SOURCES;DEPS;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
@@ -81,6 +82,10 @@ function(skyig_test NAME)
     SKYIG_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
     SKYIG_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
     SKYIG_REFERENCE="${CMAKE_SOURCE_DIR}/../shared/reference")
-  add_test(NAME ${NAME} COMMAND ${NAME})
+  if(ARG_DESKTOP)
+    add_test(NAME ${NAME} COMMAND xvfb-run -a -s "-screen 0 3840x1080x24" $<TARGET_FILE:${NAME}>)
+  else()
+    add_test(NAME ${NAME} COMMAND ${NAME})
+  endif()
   set_tests_properties(${NAME} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
 endfunction()

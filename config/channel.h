@@ -7,6 +7,7 @@
 #include <string>
 
 #include "config/screen.h"
+#include "config/window.h"
 
 namespace skyig::config {
 
@@ -44,6 +45,11 @@ struct Channel {
     int group_id = 0;
     /// Its own, what it leaves out taken from [display]; not given: that of [display].
     std::optional<Screen> display;
+    /// Where it is shown; given for all channels where there are windows.
+    std::optional<Viewport> viewport;
 };
+
+/// The field on the other side of a picture, `other_px` long, that makes its pixels square.
+[[nodiscard]] double matching_field_deg(double field_deg, double own_px, double other_px) noexcept;
 
 }  // namespace skyig::config

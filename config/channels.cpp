@@ -22,23 +22,6 @@ void read_offset(TableReader& table, Channel& channel, ChannelPlaces& places) {
     if (value != nullptr) places.offset = value->place;
 }
 
-/// One pair of frustum sides: both are needed, and something has to lie between them.
-void read_sides(TableReader& table, std::string_view low_key, double& low_deg, std::string_view high_key,
-                double& high_deg) {
-    const Range range{-kMaxHalfAngle_deg, kMaxHalfAngle_deg, "degrees"};
-    const Value* low = table.number(low_key, low_deg, range);
-    const Value* high = table.number(high_key, high_deg, range);
-    table.require(low_key, "the signed half angle to that side in degrees");
-    table.require(high_key, "the signed half angle to that side in degrees");
-    if (low != nullptr && high != nullptr && low_deg >= high_deg) {
-        table.error(
-            *high, high_key,
-            fmt::format(
-                "is {}, not greater than {} = {}: such a channel has no area ({} is normally negative)",
-                high_deg, low_key, low_deg, low_key));
-    }
-}
-
 void read_own_screen(TableReader& table, const Screen& usual, Channel& channel) {
     if (table.any("display") == nullptr) return;
     TableReader own = table.table("display");
@@ -47,7 +30,8 @@ void read_own_screen(TableReader& table, const Screen& usual, Channel& channel) 
     own.finish();
 }
 
-ChannelPlaces read_channel(TableReader& table, const Screen& usual, Channel& channel) {
+ChannelPlaces read_channel(TableReader& table, ErrorList& errors, const Screen& usual,
+                           const std::vector<Window>& windows, Channel& channel) {
     ChannelPlaces places;
     places.name = places.view_id = places.offset = table.place();
     if (const Value* value = table.text("name", channel.name); value != nullptr) {
@@ -65,17 +49,14 @@ ChannelPlaces read_channel(TableReader& table, const Screen& usual, Channel& cha
     table.integer("height_px", channel.height_px, 1, kMaxChannelSize_px, "pixels");
     table.require("width_px", "the channel's width in pixels");
     table.require("height_px", "the channel's height in pixels");
-    read_sides(table, "left_deg", channel.left_deg, "right_deg", channel.right_deg);
-    read_sides(table, "bottom_deg", channel.bottom_deg, "top_deg", channel.top_deg);
-    table.number("yaw_deg", channel.yaw_deg, {-360.0, 360.0, "degrees"});
-    table.number("pitch_deg", channel.pitch_deg, {-90.0, 90.0, "degrees"});
-    table.number("roll_deg", channel.roll_deg, {-180.0, 180.0, "degrees"});
     read_offset(table, channel, places);
+    read_frustum(table, channel);
     if (const Value* value = table.integer("view_id", channel.view_id, 0, 65535); value != nullptr) {
         places.view_id = value->place;
     }
     table.integer("group_id", channel.group_id, 0, 255);
     read_own_screen(table, usual, channel);
+    read_viewport(table, errors, windows, channel);
     table.finish();
     return places;
 }
@@ -123,7 +104,7 @@ void compare(ErrorList& errors, const std::vector<Channel>& channels,
 }  // namespace
 
 void read_channels(TableReader& root, ErrorList& errors, const Screen& usual,
-                   std::vector<Channel>& channels) {
+                   const std::vector<Window>& windows, std::vector<Channel>& channels) {
     const Value* value = root.any("channel");
     if (value == nullptr) {
         errors.add({}, "channel",
@@ -150,7 +131,8 @@ void read_channels(TableReader& root, ErrorList& errors, const Screen& usual,
         Channel& channel = channels.emplace_back();
         channel.view_id = static_cast<int>(number);
         TableReader reader(errors, table, item.place, fmt::format("channel[{}]", number));
-        places.push_back(table == nullptr ? ChannelPlaces{} : read_channel(reader, usual, channel));
+        places.push_back(table == nullptr ? ChannelPlaces{}
+                                          : read_channel(reader, errors, usual, windows, channel));
     }
     compare(errors, channels, places);
 }

@@ -11,11 +11,7 @@ namespace skyig::config {
 namespace {
 
 std::string_view output_name(OutputKind kind) {
-    switch (kind) {
-        case OutputKind::kHeadless:
-            break;
-    }
-    return "headless";
+    return kind == OutputKind::kWindow ? "in windows" : "headless";
 }
 
 /// A path in the settings is meant from where they stand.
@@ -62,6 +58,22 @@ std::string to_text(const ConfigError& error) {
     return text + fmt::format(": {}", error.message);
 }
 
+namespace {
+
+/// ", weather cat1 of 2 layers"; empty where nothing is said of it.
+std::string weather_text(const Weather& weather) {
+    std::string text;
+    if (!weather.preset.empty()) text = fmt::format(", weather {}", weather.preset);
+    if (!weather.metar.empty()) text = fmt::format(", weather of {}", weather.metar);
+    if (weather.driver == WeatherDriver::kKeyframes)
+        text += text.empty() ? ", weather by keyframes" : " by keyframes";
+    const std::size_t count = weather.layers.size();
+    if (count == 0) return text;
+    return fmt::format("{} of {} layer{}", text.empty() ? ", weather" : text, count, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
 std::string describe(const Config& config) {
     const std::size_t count = config.channels.size();
     std::string heard = config.host.enabled ? fmt::format("CIGI 3.3+4.0 on udp {}:{}",
@@ -77,8 +89,8 @@ std::string describe(const Config& config) {
         config.status.enabled
             ? fmt::format("status on http://{}:{}", config.status.listen.address, config.status.listen.port)
             : std::string("no status port");
-    return fmt::format("ok: {} channel{}, {}, {}, {}", count, count == 1 ? "" : "s", heard,
-                       output_name(config.output.kind), status);
+    return fmt::format("ok: {} channel{}, {}, {}, {}{}", count, count == 1 ? "" : "s", heard,
+                       output_name(config.output.kind), status, weather_text(config.weather));
 }
 
 }  // namespace skyig::config

@@ -13,6 +13,8 @@
 #include "config/screen.h"
 #include "config/sky.h"
 #include "config/source.h"
+#include "config/weather.h"
+#include "config/window.h"
 
 namespace skyig::config {
 
@@ -124,11 +126,13 @@ struct Eye {
     bool glare = true;
 };
 
-/// "headless": nowhere, or into files by option.
-enum class OutputKind { kHeadless };
+/// "headless": nowhere, or into files by option. "window": on the desktop.
+enum class OutputKind { kHeadless, kWindow };
 
 struct Output {
     OutputKind kind = OutputKind::kHeadless;
+    /// Windows change their pictures between two refreshes of the first one's monitor, not within one.
+    bool vsync = true;
 };
 
 /// What comes in is kept.
@@ -150,6 +154,17 @@ struct Status {
     bool listen_given = false;
 };
 
+/// Small pictures of the channels on the status port, made while somebody asks.
+struct Preview {
+    bool enabled = true;
+    /// A second and channel, 0.1..30.
+    double rate_hz = 5.0;
+    /// 16..4096; wider channels are made smaller by a whole factor.
+    int width_px = 640;
+    /// 1..100
+    int quality = 80;
+};
+
 struct Config {
     Daemon daemon;
     Host host;
@@ -160,13 +175,17 @@ struct Config {
     Ground ground;
     Sky sky;
     Night night;
+    Weather weather;
     Ephemeris ephemeris;
     Display display;
     Quality quality;
     Eye eye;
     Output output;
+    /// At most kMaxWindows; with OutputKind::kWindow one at least.
+    std::vector<Window> windows;
     Record record;
     Status status;
+    Preview preview;
     /// 1..kMaxChannels
     std::vector<Channel> channels;
 };

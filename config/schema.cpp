@@ -4,21 +4,14 @@
 
 #include <array>
 
+#include "config/presets.h"
+
 namespace skyig::config {
 namespace {
 
 constexpr std::array<std::string_view, 3> kModelNames{"almanac", "erfa", "series"};
 constexpr std::array<std::string_view, 2> kSurfaceNames{"land", "sea"};
-constexpr std::array<std::string_view, 1> kOutputNames{"headless"};
-
-void read_version(TableReader& root) {
-    int version = 1;
-    const Value* value = root.integer("version", version, 0, 1'000'000);
-    if (value != nullptr && version != 1) {
-        root.error(*value, "version", fmt::format("is {}; this program reads version 1", version));
-    }
-    root.require("version", "1, the version of the file's layout (version = 1, above all tables)");
-}
+constexpr std::array<std::string_view, 2> kOutputNames{"headless", "window"};
 
 void read_daemon(TableReader table, Daemon& daemon) {
     table.number("rate_hz", daemon.rate_hz, {1.0, 240.0, "Hz"});
@@ -84,19 +77,10 @@ void read_quality(TableReader table, Quality& quality) {
     table.finish();
 }
 
-void read_ground(TableReader table, Ground& ground) {
-    std::size_t index = 0;
-    if (table.choice("surface", index, kSurfaceNames) != nullptr)
-        ground.surface = static_cast<Surface>(index);
-    double albedo = 0.0;
-    if (table.number("albedo", albedo, {0.0, 1.0, {}}) != nullptr) ground.albedo = albedo;
-    table.number("snow_pct", ground.snow_pct, {0.0, 100.0, "%"});
-    table.finish();
-}
-
 void read_output(TableReader table, Output& output) {
     std::size_t index = 0;
     if (table.choice("kind", index, kOutputNames) != nullptr) output.kind = static_cast<OutputKind>(index);
+    table.boolean("vsync", output.vsync);
     table.finish();
 }
 
@@ -116,7 +100,24 @@ void read_record(TableReader table, Record& record) {
     table.finish();
 }
 
+void read_preview(TableReader table, Preview& preview) {
+    table.boolean("enabled", preview.enabled);
+    table.number("rate_hz", preview.rate_hz, {0.1, 30.0, "Hz"});
+    table.integer("width_px", preview.width_px, 16, 4096, "pixels");
+    table.integer("quality", preview.quality, 1, 100);
+    table.finish();
+}
+
 }  // namespace
+
+void read_version(TableReader& root) {
+    int version = 1;
+    const Value* value = root.integer("version", version, 0, 1'000'000);
+    if (value != nullptr && version != 1) {
+        root.error(*value, "version", fmt::format("is {}; this program reads version 1", version));
+    }
+    root.require("version", "1, the version of the file's layout (version = 1, above all tables)");
+}
 
 void read_air(TableReader table, Air& air) {
     table.number("visibility_m", air.visibility_m, {10.0, 400'000.0, "m"});
@@ -129,10 +130,21 @@ void read_air(TableReader table, Air& air) {
     table.finish();
 }
 
+void read_ground(TableReader table, Ground& ground) {
+    std::size_t index = 0;
+    if (table.choice("surface", index, kSurfaceNames) != nullptr)
+        ground.surface = static_cast<Surface>(index);
+    double albedo = 0.0;
+    if (table.number("albedo", albedo, {0.0, 1.0, {}}) != nullptr) ground.albedo = albedo;
+    table.number("snow_pct", ground.snow_pct, {0.0, 100.0, "%"});
+    table.finish();
+}
+
 Config read_config(const Table& document, ErrorList& errors) {
     Config config;
     TableReader root(errors, &document, {}, {});
     read_version(root);
+    read_preset(document, errors, config);
     read_daemon(root.table("daemon"), config.daemon);
     TableReader host = root.table("host");
     read_host(host, config.host);
@@ -142,6 +154,7 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_ground(root.table("ground"), config.ground);
     read_sky(root.table("sky"), config.sky);
     read_night(root.table("night"), errors, config.night);
+    read_weather(root.table("weather"), errors, config.weather);
     read_ephemeris(root.table("ephemeris"), config.ephemeris);
     read_display(root.table("display"), config.display);
     read_quality(root.table("quality"), config.quality);
@@ -150,7 +163,10 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_record(root.table("record"), config.record);
     TableReader status = root.table("status");
     read_status(status, config.status);
-    read_channels(root, errors, config.display, config.channels);
+    read_preview(root.table("preview"), config.preview);
+    read_windows(root, errors, config.windows);
+    read_channels(root, errors, config.display, config.windows, config.channels);
+    place_channels(errors, config);
     root.finish();
     return config;
 }

@@ -16,12 +16,20 @@ void read_sources(TableReader& root, ErrorList& errors, const Host& host, std::v
 /// Reads [status].
 void read_status(TableReader& table, Status& status);
 
-/// Reads [air] and [sky] with its tables.
+/// Refuses a layout of another version.
+void read_version(TableReader& root);
+
+/// Reads [air], [ground], [sky] with its tables.
 void read_air(TableReader table, Air& air);
+void read_ground(TableReader table, Ground& ground);
 void read_sky(TableReader table, Sky& sky);
 
 /// Reads [night] with its cities.
 void read_night(TableReader table, ErrorList& errors, Night& night);
+
+/// Reads [weather], whose preset stands in `weather` already, and its keyframes.
+void read_weather(TableReader table, ErrorList& errors, Weather& weather);
+void read_keyframes(TableReader table, Keyframes& keyframes);
 
 /// Reads what [display] and [channel.display] have in common; what is left out stays. Full white that is
 /// given brings an adaptation of half of it.
@@ -31,9 +39,21 @@ void read_screen(TableReader& table, Screen& screen);
 void read_display(TableReader table, Display& display);
 void read_eye(TableReader table, Eye& eye);
 
+/// Reads the frustum of a [[channel]] and where it looks, its size and eye being read.
+void read_frustum(TableReader& table, Channel& channel);
+
+/// Reads the [[window]] tables, and where in one a [[channel]] is shown.
+void read_windows(TableReader& root, ErrorList& errors, std::vector<Window>& windows);
+void read_viewport(TableReader& table, ErrorList& errors, const std::vector<Window>& windows,
+                   Channel& channel);
+/// Gives every channel a window where the settings want windows and tell of none. Every channel needs a place
+/// where they tell of some.
+void place_channels(ErrorList& errors, Config& config);
+
 /// Reads the [[channel]] tables and checks them against one another. \param usual  screen that theirs are
-/// variants of
-void read_channels(TableReader& root, ErrorList& errors, const Screen& usual, std::vector<Channel>& channels);
+/// variants of \param windows  that they may lie in
+void read_channels(TableReader& root, ErrorList& errors, const Screen& usual,
+                   const std::vector<Window>& windows, std::vector<Channel>& channels);
 
 /// 1..32 of letters, digits, '-' and '_': fit for a part of a file's name.
 [[nodiscard]] bool is_short_name(std::string_view text) noexcept;

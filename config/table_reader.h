@@ -21,6 +21,7 @@ class ErrorList {
     /// In the order of the text.
     [[nodiscard]] std::vector<ConfigError> sorted() &&;
     [[nodiscard]] bool empty() const noexcept { return errors_.empty(); }
+    [[nodiscard]] const std::string& file() const noexcept { return file_; }
 
   private:
     std::string file_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/colour.h"
 #include "render/sky/staleness.h"
@@ -84,6 +85,7 @@ void DeferredAir::update(const Scene& scene, const Plan& plan, const LightTables
         ++revision_;
     }
     tell_sources(scene, plan, light);
+    tell_veil(light);
 }
 
 // The lights of the table in use: one that has gone out adds nothing, one that has just come is not in it
@@ -92,25 +94,90 @@ void DeferredAir::tell_sources(const Scene& scene, const Plan& plan, const SkyLi
     source_count_ = front_made_.count;
     for (std::size_t i = 0; i < source_count_; ++i) {
         const Body body = front_made_.lights[i].body;
-        const glm::dvec3 scale_xyz{shines(body, plan, light) ? air_of(body, light).scale_xyz
+        const LitAir& lit = air_of(body, light);
+        const glm::dvec3 scale_xyz{shines(body, plan, light) ? lit.clouded.at_eye * lit.scale_xyz
                                                              : glm::vec3{0.0F}};
         const glm::dmat3 scale{scale_xyz.x, 0.0, 0.0, 0.0, scale_xyz.y, 0.0, 0.0, 0.0, scale_xyz.z};
         sources_[i] = {direction_of(body, scene), kRec709FromXyz * scale * kXyzFromRec709};
     }
 }
 
-glm::dvec3 DeferredAir::under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3& direction_enu,
-                                  double distance_m) const noexcept {
+void DeferredAir::tell_veil(const SkyLight& light) noexcept {
+    veil_ = light.veil;
+    if (veil_ == nullptr) return;
+    front_air_ = light.front_air;
+    const fog::VeilSources& sources = veil_->sources();
+    glm::dvec3 level = sources.above_cd_m2;
+    for (const fog::VeilSources::Beam& beam : sources.beams)
+        level += beam.lux * (std::max(beam.direction_enu.z, 0.0) / std::numbers::pi);
+    beyond_veil_cd_m2_ = {sources.above_cd_m2, sources.ground_albedo * level * veil_->ground_share()};
+}
+
+// Of air that does not end, towards there.
+glm::dvec3 DeferredAir::endless_cd_m2(const Horizontal& view) const noexcept {
+    constexpr double kEndless_m = 1e8;
+    glm::dvec3 sum = night_cd_m2_;
+    for (std::size_t i = 0; i < source_count_; ++i) {
+        const double azimuth_rad = view.azimuth_rad - horizontal_of(sources_[i].direction_enu).azimuth_rad;
+        const auto seen = front_.between(view.elevation_rad, azimuth_rad, kEndless_m, i);
+        sum += sources_[i].rgb * (seen.added_rgb / glm::max(1.0 - seen.passed_rgb, glm::dvec3{1e-12}));
+    }
+    return sum;
+}
+
+sky::models::AirBetween DeferredAir::clear_between(const glm::dvec3& direction_enu,
+                                                   double distance_m) const noexcept {
     const Horizontal view = horizontal_of(direction_enu);
-    glm::dvec3 passed{1.0};
-    glm::dvec3 added{0.0};
+    sky::models::AirBetween all;
     for (std::size_t i = 0; i < std::max<std::size_t>(source_count_, 1); ++i) {
         const double azimuth_rad = view.azimuth_rad - horizontal_of(sources_[i].direction_enu).azimuth_rad;
         const auto seen = front_.between(view.elevation_rad, azimuth_rad, distance_m, i);
-        passed = seen.passed_rgb;
-        if (i < source_count_) added += sources_[i].rgb * seen.added_rgb;
+        all.passed_rgb = seen.passed_rgb;
+        if (i < source_count_) all.added_rgb += sources_[i].rgb * seen.added_rgb;
     }
-    return rgb_cd_m2 * passed + added + night_cd_m2_ * (1.0 - passed);
+    all.added_rgb += night_cd_m2_ * (1.0 - all.passed_rgb);
+    return all;
+}
+
+fog::Veil::Both DeferredAir::veil_along(const glm::dvec3& ray_enu, double distance_m) const noexcept {
+    const shaders64::VeilRay ray{ray_enu.z, veil_->eye_radius_m()};
+    const auto ground_m = shaders64::veil_below_m(veil_->segments().front().low_m, ray);
+    const bool meets = ray_enu.z < 0.0 && ground_m.y > ground_m.x;
+    return veil_->along(ray_enu, distance_m, meets ? ground_m.x : fog::Veil::kEndless_m);
+}
+
+glm::dvec3 DeferredAir::veil_in_air(const shaders64::VeilSum& sum, const glm::dvec3& ray_enu,
+                                    const glm::dvec3& endless_cd_m2,
+                                    const glm::dvec3& behind_cd_m2) const noexcept {
+    const double veil_m = shaders64::veil_distance_m(sum);
+    const double rise_m = shaders64::veil_rise_m(veil_m, {ray_enu.z, veil_->eye_radius_m()});
+    return shaders64::veil_in_air(sum, shaders64::veil_air_passes(rise_m, veil_m, front_air_), endless_cd_m2,
+                                  behind_cd_m2);
+}
+
+sky::models::AirBetween DeferredAir::between(const glm::dvec3& direction_enu,
+                                             double distance_m) const noexcept {
+    const sky::models::AirBetween air = clear_between(direction_enu, distance_m);
+    if (veil_ == nullptr || !(distance_m > 0.0)) return air;
+    const Horizontal view = horizontal_of(direction_enu);
+    const shaders64::VeilSum near = veil_along(direction_enu, distance_m).near;
+    return {air.passed_rgb * std::exp(-near.cut_depth),
+            veil_in_air(near, direction_enu, endless_cd_m2(view), air.added_rgb)};
+}
+
+glm::dvec3 DeferredAir::under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3& direction_enu,
+                                  double distance_m) const noexcept {
+    const sky::models::AirBetween air = clear_between(direction_enu, distance_m);
+    if (veil_ == nullptr || !(distance_m > 0.0)) return rgb_cd_m2 * air.passed_rgb + air.added_rgb;
+    const glm::dvec3 endless = endless_cd_m2(horizontal_of(direction_enu));
+    const fog::Veil::Both sums = veil_along(direction_enu, distance_m);
+    const glm::dvec3 before =
+        veil_in_air(sums.near, direction_enu, endless,
+                    shaders64::veil_own_air(air.added_rgb, air.passed_rgb, endless, sums.near));
+    const glm::dvec3 without =
+        veil_in_air(sums.whole, direction_enu, endless, beyond_veil_cd_m2_[direction_enu.z < 0.0 ? 1 : 0]);
+    return rgb_cd_m2 * air.passed_rgb * std::exp(-sums.near.depth) +
+           shaders64::veil_before(before, without, sums.near);
 }
 
 }  // namespace skyig::render

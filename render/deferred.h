@@ -8,6 +8,7 @@
 
 #include "render/channel.h"
 #include "render/display.h"
+#include "render/fog/veil.h"
 #include "render/light_tables.h"
 #include "render/scene.h"
 #include "render/shaders/shared.h"
@@ -49,9 +50,19 @@ class DeferredAir {
     [[nodiscard]] const Source& source(std::size_t i) const noexcept { return sources_[i]; }
     /// Of endless air with neither Sun nor Moon, linear Rec.709.
     [[nodiscard]] const glm::dvec3& night_cd_m2() const noexcept { return night_cd_m2_; }
+    /// Fog and the like of the frame, null where there is none, and the light from past it: sky, ground.
+    [[nodiscard]] const fog::Veil* veil() const noexcept { return veil_; }
+    [[nodiscard]] const glm::dvec3& beyond_veil_cd_m2(bool ground) const noexcept {
+        return beyond_veil_cd_m2_[ground ? 1 : 0];
+    }
+    [[nodiscard]] const shaders64::VeilAir& air_before_veil() const noexcept { return front_air_; }
     /// Rises whenever the table in use is replaced.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
+    /// What the air, and fog in it, do to smooth light on its way from there, to the sum of all lights.
+    /// \param direction_enu  unit vector
+    [[nodiscard]] sky::models::AirBetween between(const glm::dvec3& direction_enu,
+                                                  double distance_m) const noexcept;
     /// What the shader makes of a thing, in double. \param direction_enu  unit vector
     [[nodiscard]] glm::dvec3 under_air(const glm::dvec3& rgb_cd_m2, const glm::dvec3& direction_enu,
                                        double distance_m) const noexcept;
@@ -72,6 +83,14 @@ class DeferredAir {
     [[nodiscard]] static bool same_bodies(const Made& a, const Made& b) noexcept;
     [[nodiscard]] static double largest_step_rad(const Made& a, const Made& b) noexcept;
     void begin(const Made& wanted, const LightTables& tables);
+    [[nodiscard]] sky::models::AirBetween clear_between(const glm::dvec3& direction_enu,
+                                                        double distance_m) const noexcept;
+    [[nodiscard]] fog::Veil::Both veil_along(const glm::dvec3& ray_enu, double distance_m) const noexcept;
+    [[nodiscard]] glm::dvec3 veil_in_air(const shaders64::VeilSum& sum, const glm::dvec3& ray_enu,
+                                         const glm::dvec3& endless_cd_m2,
+                                         const glm::dvec3& behind_cd_m2) const noexcept;
+    [[nodiscard]] glm::dvec3 endless_cd_m2(const Horizontal& view) const noexcept;
+    void tell_veil(const SkyLight& light) noexcept;
     void tell_sources(const Scene& scene, const Plan& plan, const SkyLight& light) noexcept;
 
     sky::models::AerialTable front_;
@@ -82,6 +101,9 @@ class DeferredAir {
     std::array<Source, sky::models::AerialTable::kMaxLights> sources_{};
     std::size_t source_count_ = 0;
     glm::dvec3 night_cd_m2_{0.0};
+    const fog::Veil* veil_ = nullptr;
+    shaders64::VeilAir front_air_{};
+    std::array<glm::dvec3, 2> beyond_veil_cd_m2_{};
     std::uint64_t revision_ = 0;
 };
 

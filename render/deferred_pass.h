@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "render/deferred.h"
 #include "render/discs.h"
@@ -17,22 +18,19 @@ class DeferredPass {
     /// \throws std::runtime_error when the program or the textures cannot be made
     DeferredPass();
 
-    /// Once a frame, after LightTables::update().
-    void prepare(const Scene& scene, const Plan& plan, const LightTables& tables, const SkyLight& light,
-                 bool dither);
+    /// Once a frame. \param air  of the frame
+    void prepare(const DeferredAir& air, bool dither);
     /// Into the framebuffer that is bound, without blending.
     void draw(const ChannelView& view, const DeferredInput& input,
               const shaders32::ToneParameters& tone) const;
-
-    [[nodiscard]] const DeferredAir& air() const noexcept { return air_; }
 
   private:
     struct SourceUniforms {
         int direction, rgb;
     };
-    void upload();
+    void upload(const DeferredAir& air);
+    void upload_veil(const DeferredAir& air);
 
-    DeferredAir air_;
     gl::Program program_;
     gl::Mesh triangle_;
     ToneUniforms tone_;
@@ -42,6 +40,13 @@ class DeferredPass {
     gl::Texture extinction_;
     std::array<gl::Texture, 2> rest_;
     std::array<gl::Texture, 2> haze_;
+    struct VeilUniforms {
+        int count, radius, slants, molecules, aerosol;
+        std::array<int, 2> lux, direction, beyond;
+    };
+    VeilUniforms veil_;
+    gl::Texture veil_segments_;
+    std::vector<float> veil_texels_;
     std::uint64_t uploaded_ = 0;
 };
 

@@ -78,7 +78,8 @@ shaders64::Fovea moon_fovea(const Scene& scene, const sky::AirTables& air, const
         light.refraction.apparent_from_true(horizontal_of(scene.moon.direction_enu).elevation_rad);
     const double straight_rad =
         std::max(light.straight_elevation_rad(seen_rad), light.straight_horizon_rad + kWholeDisc_rad);
-    const double passed = shaders64::luminance_709(air.transmittance_rgb(light.eye_height_m, straight_rad));
+    const double passed = light.veil_passes(straight_rad) *
+                          shaders64::luminance_709(air.transmittance_rgb(light.eye_height_m, straight_rad));
     const double mean_cd_m2 =
         std::max(passed * night::moon_mean_cd_m2(scene.moon, scene.sun.distance_au), 1.0);
     return eye::fovea(display, tone, 1e-4 * mean_cd_m2, mean_cd_m2);

@@ -2,6 +2,7 @@
 // horizon. Free of GL.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <glm/glm.hpp>
@@ -44,6 +45,13 @@ struct DiscFrame {
     std::array<double, kRows> straight_elevation_rad{};
     std::array<DiscVertex, 2 * kRows> vertices{};  ///< left and right end of each row, a strip
 
+    /// Largest luminance by which what the vertices have is to be multiplied.
+    float brightness = 1.0F;
+
+    /// Of a vertex' place, unit vector.
+    [[nodiscard]] glm::dvec3 direction_enu(const glm::vec2& at) const noexcept {
+        return glm::normalize(glm::dvec3{centre_enu + at.x * right_enu + at.y * up_enu});
+    }
     void set_light(std::size_t row, const glm::vec3& light) noexcept {
         vertices[2 * row].light = vertices[2 * row + 1].light = light;
     }
@@ -55,6 +63,30 @@ struct DiscFrame {
 [[nodiscard]] DiscFrame disc_frame(const glm::dvec3& direction_enu, double angular_radius_rad,
                                    double pixel_rad, const SkyLight& light,
                                    double reach_radii = 1.0) noexcept;
+
+/// Puts clouds before a disc whose light is set. \param through  (light behind, cd/m2; direction, unit
+/// vector) -> what is seen of it \param passed  (direction) -> transmittance \return whether it still shows
+template <class Through, class Passed>
+bool put_behind_clouds(DiscFrame& frame, Through through, Passed passed) {
+    float brightest = 0.0F;
+    for (DiscVertex& vertex : frame.vertices) {
+        vertex.light *= static_cast<float>(passed(frame.direction_enu(vertex.seen)));
+        brightest = std::max(brightest, shaders32::luminance_709(vertex.light));
+    }
+    const auto seen = [&](float right, float up) {
+        const glm::vec3 behind =
+            frame.background_cd_m2 + right * frame.background_right + up * frame.background_up;
+        return glm::vec3{
+            through(glm::dvec3{behind}, frame.direction_enu(frame.radius * glm::vec2{right, up}))};
+    };
+    const glm::vec3 left = seen(-1.0F, 0.0F), right = seen(1.0F, 0.0F);
+    const glm::vec3 low = seen(0.0F, -1.0F), high = seen(0.0F, 1.0F);
+    frame.background_cd_m2 = seen(0.0F, 0.0F);
+    frame.background_right = 0.5F * (right - left);
+    frame.background_up = 0.5F * (high - low);
+    constexpr float kShows = 1e-3F;
+    return brightest * frame.brightness > kShows * shaders32::luminance_709(frame.background_cd_m2);
+}
 
 /// How the eye that looks at the Moon takes its light: exact for the sunlit face behind the air, and for 1e-4
 /// of it, deep in the Earth's shadow. \param tone  the frame's, made of `display`

@@ -69,7 +69,8 @@ DiscFrame sunlit_frame(const Sun& sun, const sky::AirTables& air, const SkyLight
     for (std::size_t row = 0; row < DiscFrame::kRows; ++row) {
         const glm::dvec3 illuminance =
             air.direct_sun_xyz(light.eye_height_m, frame.straight_elevation_rad[row], sun.distance_au);
-        frame.set_light(row, rec709_from_xyz(glm::vec3{illuminance / solid_angle}));
+        const double passes = light.veil_passes(frame.straight_elevation_rad[row]);
+        frame.set_light(row, rec709_from_xyz(glm::vec3{passes * illuminance / solid_angle}));
     }
     return frame;
 }
@@ -119,7 +120,15 @@ DiscPass::DiscPass(std::string_view fragment, bool dithers)
       background_up_(program_.uniform("u_background_up")),
       dither_(dithers ? program_.uniform("u_dither_codes") : -1) {}
 
-void DiscPass::prepare(const DiscFrame& frame, const shaders32::ToneParameters& tone, bool dither) {
+void DiscPass::prepare(const SkyFrame& sky, DiscFrame frame, const shaders32::ToneParameters& tone,
+                       bool dither) {
+    shows_ = !sky.clouds().shown() ||
+             put_behind_clouds(
+                 frame,
+                 [&](const glm::dvec3& behind_cd_m2, const glm::dvec3& direction_enu) {
+                     return sky.through_clouds(behind_cd_m2, direction_enu);
+                 },
+                 [&](const glm::dvec3& direction_enu) { return sky.clouds().transmittance(direction_enu); });
     strip_.update(
         {reinterpret_cast<const float*>(frame.vertices.data()), sizeof(frame.vertices) / sizeof(float)});
     program_.set(centre_, frame.centre_enu);
@@ -137,6 +146,7 @@ void DiscPass::prepare(const DiscFrame& frame, const shaders32::ToneParameters& 
 }
 
 void DiscPass::draw(const glm::mat4& clip_from_enu) const {
+    if (!shows_) return;
     program_.use();
     program_.set(clip_, clip_from_enu);
     strip_.draw_strip(2 * DiscFrame::kRows);
@@ -144,21 +154,21 @@ void DiscPass::draw(const glm::mat4& clip_from_enu) const {
 
 SunDisc::SunDisc() : pass_("sky/sun.frag", true), limb_(pass_.program().uniform("u_limb")) {}
 
-void SunDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
+void SunDisc::prepare(const Scene& scene, const SkyFrame& sky, double pixel_rad,
                       const shaders32::ToneParameters& tone, bool dither) {
-    DiscFrame frame = sunlit_frame(scene.sun, air, light, pixel_rad, 1.0);
+    DiscFrame frame = sunlit_frame(scene.sun, sky.air(), sky.light(), pixel_rad, 1.0);
     const glm::vec3 kept = softened_sum(static_cast<float>(pixel_rad / scene.sun.angular_radius_rad));
     for (DiscVertex& vertex : frame.vertices)
         vertex.light /= kept;
-    pass_.prepare(frame, tone, dither);
+    pass_.prepare(sky, frame, tone, dither);
     pass_.program().set(limb_, kLimb);
 }
 
 Corona::Corona() : pass_("sky/corona.frag", false), share_(pass_.program().uniform("u_share")) {}
 
-void Corona::prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
+void Corona::prepare(const Scene& scene, const SkyFrame& sky, double pixel_rad,
                      const shaders32::ToneParameters& tone, double share) {
-    pass_.prepare(sunlit_frame(scene.sun, air, light, pixel_rad, kCoronaRadii), tone, false);
+    pass_.prepare(sky, sunlit_frame(scene.sun, sky.air(), sky.light(), pixel_rad, kCoronaRadii), tone, false);
     pass_.program().set(share_, static_cast<float>(share));
 }
 
@@ -184,16 +194,19 @@ MoonDisc::MoonDisc()
     map_.update(albedo);
 }
 
-void MoonDisc::prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
+void MoonDisc::prepare(const Scene& scene, const SkyFrame& sky, double pixel_rad,
                        const shaders32::ToneParameters& tone, bool dither, const shaders64::Fovea& fovea,
                        const Glare::Limb& veil) {
     const Moon& moon = scene.moon;
+    const SkyLight& light = sky.light();
     DiscFrame frame = disc_frame(moon.direction_enu, moon.angular_radius_rad, pixel_rad, light);
     for (std::size_t row = 0; row < DiscFrame::kRows; ++row) {
         frame.set_light(
-            row, glm::vec3{air.transmittance_rgb(light.eye_height_m, frame.straight_elevation_rad[row])});
+            row, glm::vec3{light.veil_passes(frame.straight_elevation_rad[row]) *
+                           sky.air().transmittance_rgb(light.eye_height_m, frame.straight_elevation_rad[row])});
     }
-    pass_.prepare(frame, tone, dither);
+    frame.brightness = static_cast<float>(night::moon_mean_cd_m2(moon, scene.sun.distance_au));
+    pass_.prepare(sky, frame, tone, dither);
     const glm::mat3 enu_from_disc{frame.right_enu, frame.true_up_enu, -frame.true_centre_enu};
     const glm::mat3 disc_from_enu = glm::transpose(enu_from_disc);
     const double sun_au = scene.sun.distance_au;

@@ -11,8 +11,7 @@
 #include "render/glare.h"
 #include "render/scene.h"
 #include "render/shaders/shared.h"
-#include "render/sky/air_tables.h"
-#include "render/sky_light.h"
+#include "render/sky_frame.h"
 
 namespace skyig::render {
 
@@ -36,12 +35,15 @@ class DiscPass {
     /// \throws std::runtime_error when the program cannot be made
     DiscPass(std::string_view fragment, bool dithers);
 
-    void prepare(const DiscFrame& frame, const shaders32::ToneParameters& tone, bool dither);
+    /// \param frame  before clouds stand in front of it
+    void prepare(const SkyFrame& sky, DiscFrame frame, const shaders32::ToneParameters& tone, bool dither);
+    /// Nothing where clouds hide it.
     void draw(const glm::mat4& clip_from_enu) const;
 
     [[nodiscard]] const gl::Program& program() const noexcept { return program_; }
 
   private:
+    bool shows_ = true;
     gl::Program program_;
     gl::Mesh strip_;
     ToneUniforms tone_;
@@ -52,7 +54,7 @@ class DiscPass {
 class SunDisc {
   public:
     SunDisc();
-    void prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
+    void prepare(const Scene& scene, const SkyFrame& frame, double pixel_rad,
                  const shaders32::ToneParameters& tone, bool dither);
     void draw(const glm::mat4& clip_from_enu) const { pass_.draw(clip_from_enu); }
 
@@ -65,7 +67,7 @@ class SunDisc {
 class Corona {
   public:
     Corona();
-    void prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
+    void prepare(const Scene& scene, const SkyFrame& frame, double pixel_rad,
                  const shaders32::ToneParameters& tone, double share);
     void draw(const glm::mat4& clip_from_enu) const { pass_.draw(clip_from_enu); }
 
@@ -78,7 +80,7 @@ class MoonDisc {
   public:
     MoonDisc();
     /// \param fovea  the eye that looks at it; \param veil  its own glare
-    void prepare(const Scene& scene, const sky::AirTables& air, const SkyLight& light, double pixel_rad,
+    void prepare(const Scene& scene, const SkyFrame& frame, double pixel_rad,
                  const shaders32::ToneParameters& tone, bool dither, const shaders64::Fovea& fovea,
                  const Glare::Limb& veil);
     void draw(const glm::mat4& clip_from_enu) const;

@@ -83,7 +83,7 @@ bool still_serves(const DomeLayout& held, const DomeLayout& wanted) noexcept {
 }
 
 bool still_fits(const DomeLayout& held, const DomeLayout& wanted) noexcept {
-    return held.air == wanted.air && held.sea == wanted.sea &&
+    return held.air == wanted.air && held.sea == wanted.sea && held.veil == wanted.veil &&
            std::abs(held.adaptation_cd_m2 - wanted.adaptation_cd_m2) < 0.1 * held.adaptation_cd_m2;
 }
 

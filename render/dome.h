@@ -42,6 +42,8 @@ struct DomeLayout {
     std::uint64_t air = 0;
     /// The ground mirrors the sources.
     bool sea = false;
+    /// SkyVeil::bends_revision()
+    std::uint64_t veil = 0;
 };
 
 [[nodiscard]] DomeLayout dome_layout(const SkyLight& light, double edge_rad, double adaptation_cd_m2,
@@ -107,8 +109,14 @@ class Dome {
     /// What of the indices a view needs; valid until the next call. \param clip_from_mesh  as the vertex
     /// shader has it \param rows  whole patches, from the nadir
     [[nodiscard]] std::span<const IndexRange> visible(const glm::dmat4& clip_from_mesh,
-                                                      const QuadRows& rows = {}) noexcept {
-        return patches_.visible(clip_from_mesh, rows);
+                                                      const QuadRows& rows = {},
+                                                      Marked which = Marked::kAll) noexcept {
+        return patches_.visible(clip_from_mesh, rows, which);
+    }
+    /// Marks patches for visible(). \see DomePatches::mark()
+    template <class Meets>
+    void mark(Meets meets) noexcept {
+        patches_.mark(meets);
     }
     [[nodiscard]] const DomeLayout& layout() const noexcept { return layout_; }
     [[nodiscard]] const DomeSize& size() const noexcept { return size_; }

@@ -85,8 +85,8 @@ void DomePatches::bound(std::span<const glm::vec3> directions) noexcept {
     }
 }
 
-std::span<const IndexRange> DomePatches::visible(const glm::dmat4& clip_from_dome,
-                                                 const QuadRows& rows) noexcept {
+std::span<const IndexRange> DomePatches::visible(const glm::dmat4& clip_from_dome, const QuadRows& rows,
+                                                 Marked which) noexcept {
     const auto row = [&](int i) {
         return glm::dvec4{clip_from_dome[0][i], clip_from_dome[1][i], clip_from_dome[2][i],
                           clip_from_dome[3][i]};
@@ -101,6 +101,7 @@ std::span<const IndexRange> DomePatches::visible(const glm::dmat4& clip_from_dom
     visible_.clear();
     for (const Patch& patch : patches_) {
         if (patch.row < rows.first || patch.row >= rows.end) continue;
+        if (which != Marked::kAll && patch.marked != (which == Marked::kYes)) continue;
         const bool outside = std::any_of(sides.begin(), sides.end(), [&](const glm::dvec4& side) {
             return glm::dot(glm::dvec3{side}, patch.axis) + std::max(side.w, 0.0) < -patch.sine;
         });

@@ -24,6 +24,9 @@ struct QuadRows {
     std::uint32_t end = std::numeric_limits<std::uint32_t>::max();
 };
 
+/// Which patches: see DomePatches::mark().
+enum class Marked { kAll, kYes, kNo };
+
 /// A grid of rows x columns of directions, cut into patches of at most kSide x kSide quads.
 class DomePatches {
   public:
@@ -74,7 +77,16 @@ class DomePatches {
     /// span the view: -w <= x, y <= w; applied to (direction, 1), its last column shifts all vertices by a
     /// little. \param rows  no others. Valid until the next call; allocates nothing.
     [[nodiscard]] std::span<const IndexRange> visible(const glm::dmat4& clip_from_dome,
-                                                      const QuadRows& rows = {}) noexcept;
+                                                      const QuadRows& rows = {},
+                                                      Marked which = Marked::kAll) noexcept;
+
+    /// Marks patches anew. \param meets  (axis of the cone that holds a patch, sine of its half angle) ->
+    /// bool
+    template <class Meets>
+    void mark(Meets meets) noexcept {
+        for (Patch& patch : patches_)
+            patch.marked = meets(patch.axis, patch.sine);
+    }
 
   private:
     struct Patch {
@@ -87,6 +99,7 @@ class DomePatches {
         /// The cone that holds the patch: its axis, and the sine of its half angle (1: a half space or more).
         glm::dvec3 axis{0.0, 0.0, 1.0};
         double sine = 1.0;
+        bool marked = false;
     };
     template <class Rising>
     void cut(Rising rising) noexcept {

@@ -10,6 +10,14 @@ double horizon_elevation_rad(double eye_height_m) noexcept {
     return -std::atan2(std::sqrt(h * (2.0 * kEarthRadius_m + h)), kEarthRadius_m);
 }
 
+double straight_elevation_rad(double seen_rad, double seen_horizon_rad,
+                              double straight_horizon_rad) noexcept {
+    if (seen_rad >= 0.0 || seen_horizon_rad >= 0.0) return seen_rad;
+    if (seen_rad >= seen_horizon_rad) return seen_rad * (straight_horizon_rad / seen_horizon_rad);
+    const double shift_rad = straight_horizon_rad - seen_horizon_rad;
+    return seen_rad + shift_rad * std::tan(seen_horizon_rad) * std::cos(seen_rad) / std::sin(seen_rad);
+}
+
 Horizontal horizontal_of(const glm::dvec3& d) noexcept {
     const double level = std::hypot(d.x, d.y);
     return {std::atan2(d.z, level), level > 0.0 ? std::atan2(d.x, d.y) : 0.0};

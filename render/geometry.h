@@ -11,6 +11,12 @@ inline constexpr double kEarthRadius_m = 6371.0e3;
 /// Elevation of the geometric horizon, minus its dip: <= 0. An eye below the ground counts as on it.
 [[nodiscard]] double horizon_elevation_rad(double eye_height_m) noexcept;
 
+/// Elevation of the straight ray that leaves the eye instead of the one that air bends: along the level and
+/// above it the same, down to the horizon in proportion, below it as the chords of one bend. Both horizons at
+/// or below the level.
+[[nodiscard]] double straight_elevation_rad(double seen_rad, double seen_horizon_rad,
+                                            double straight_horizon_rad) noexcept;
+
 /// Elevation and azimuth (clockwise from north) of a direction; both finite at the poles.
 struct Horizontal {
     double elevation_rad = 0.0;

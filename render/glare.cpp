@@ -52,7 +52,7 @@ GlareSource sun_glare(const Scene& scene, const sky::AirTables& air, const SkyLi
     if (!scene.sun.enabled) return source;
     const double straight_rad = light.straight_elevation_rad(source.at.elevation_rad);
     source.rgb_lux =
-        scene.sun.unobscured *
+        light.veil_passes(straight_rad) * scene.sun.unobscured *
         (kRec709FromXyz * air.direct_sun_xyz(light.eye_height_m, straight_rad, scene.sun.distance_au));
     return source;
 }
@@ -61,7 +61,7 @@ GlareSource moon_glare(const Scene& scene, const sky::AirTables& air, const SkyL
     GlareSource source = unlit_source(scene.moon.direction_enu, scene.moon.angular_radius_rad, light);
     if (!scene.moon.enabled) return source;
     const double straight_rad = light.straight_elevation_rad(source.at.elevation_rad);
-    source.rgb_lux = scene.moon.sunlit * night::moon_illuminance_lux(scene.moon, scene.sun.distance_au) *
+    source.rgb_lux = light.veil_passes(straight_rad) * scene.moon.sunlit * night::moon_illuminance_lux(scene.moon, scene.sun.distance_au) *
                      night::moon_tint_rgb() * air.transmittance_rgb(light.eye_height_m, straight_rad);
     return source;
 }

@@ -192,6 +192,22 @@ bool LightTables::has_jumped(const Scene& scene) const noexcept {
            is_height_jump(last_->height_m, scene.eye.height_m);
 }
 
+// Of one source: what is left of it below clouds, weighed by what a clear sky would bring.
+void LightTables::shade(const Scene& scene, const CloudShade& clouds, LitAir& lit) const noexcept {
+    const double sine = std::sin(lit.source.elevation_rad);
+    const double beam_lux = std::max(sine, 0.0) * air_->direct_sun_xyz(0.0, lit.source.elevation_rad).y;
+    const double sky_lux = air_->ground_diffuse_xyz(lit.source.elevation_rad).y;
+    const double all_lux = std::max(beam_lux + sky_lux, 1e-12);
+    const auto mean = [&](const CloudShare& share) {
+        return (beam_lux * static_cast<double>(share.beam) + sky_lux * static_cast<double>(share.sky)) /
+               all_lux;
+    };
+    const CloudShare ground = clouds.at(0.0, sine);
+    lit.clouded = {static_cast<float>(mean(clouds.at(scene.eye.height_m, sine))),
+                   static_cast<float>(mean(ground))};
+    lit.beam_share = ground.direct;
+}
+
 void LightTables::update(const Scene& scene, const Plan& plan) {
     jumped_ = has_jumped(scene);
     last_ = {scene.sun.direction_enu, scene.moon.direction_enu, scene.eye.height_m};
@@ -232,12 +248,25 @@ SkyLight LightTables::light(const Scene& scene, const Plan& plan,
     if (plan.sun_share > 0.0 && sun_.front_made.air != 0) {
         const double unobscured = std::max(scene.sun.unobscured, kFromBeyondShadow);
         const double share = plan.sun_share * unobscured / (scene.sun.distance_au * scene.sun.distance_au);
-        light.sun = {&sun_.front, horizontal_of(scene.sun.direction_enu),
-                     glm::vec3{static_cast<float>(share)}, reflected(sun_)};
+        light.sun = {&sun_.front,
+                     horizontal_of(scene.sun.direction_enu),
+                     glm::vec3{static_cast<float>(share)},
+                     reflected(sun_),
+                     {},
+                     1.0F};
     }
     if (plan.moon_share > 0.0 && moon_.front_made.air != 0) {
-        light.moon = {&moon_.front, horizontal_of(scene.moon.direction_enu),
-                      moon_scale_xyz(scene, air_->model(), plan.moon_share), reflected(moon_)};
+        light.moon = {&moon_.front,
+                      horizontal_of(scene.moon.direction_enu),
+                      moon_scale_xyz(scene, air_->model(), plan.moon_share),
+                      reflected(moon_),
+                      {},
+                      1.0F};
+    }
+    if (const CloudShade clouds(scene.weather, light.ground_albedo); clouds.any()) {
+        shade(scene, clouds, light.sun);
+        shade(scene, clouds, light.moon);
+        light.night_clouded = {clouds.at(scene.eye.height_m, 0.0).sky, clouds.at(0.0, 0.0).sky};
     }
     return light;
 }

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "render/air_builder.h"
+#include "render/cloud_shade.h"
 #include "render/night/night_sky.h"
 #include "render/plan.h"
 #include "render/scene.h"
@@ -119,6 +120,7 @@ class LightTables {
     void update_sea(const Scene& scene) noexcept;
     [[nodiscard]] bool same_sea(const Made& made, const Scene& scene) const noexcept;
     void update_view(View& view, const Wanted& wanted);
+    void shade(const Scene& scene, const CloudShade& clouds, LitAir& lit) const noexcept;
     [[nodiscard]] SkySettings fitting(const SkySettings& asked) const noexcept;
 
     sky::Refraction refraction_;

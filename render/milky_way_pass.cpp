@@ -8,21 +8,25 @@ namespace {
 using Map = night::MilkyWayMap;
 }  // namespace
 
-MilkyWayPass::MilkyWayPass(std::size_t screens)
-    : program_("night/milky_way.vert", "night/milky_way.frag"),
-      clip_(program_.uniform("u_clip_from_galactic")),
-      half_size_(program_.uniform("u_half_size_px")),
-      up_(program_.uniform("u_up_galactic")),
-      horizon_sine_(program_.uniform("u_horizon_sine")),
-      place_scale_(program_.uniform("u_place_scale")),
-      place_shift_(program_.uniform("u_place_shift")),
-      dither_(program_.uniform("u_dither_codes")) {
+MilkyWayPass::Variant::Variant(std::string_view fragment)
+    : program("night/milky_way.vert", fragment),
+      clip(program.uniform("u_clip_from_galactic")),
+      half_size(program.uniform("u_half_size_px")),
+      up(program.uniform("u_up_galactic")),
+      horizon_sine(program.uniform("u_horizon_sine")),
+      dither(program.uniform("u_dither_codes")) {
+    const glm::vec2 size{Map::kWidth, Map::kHeight};
+    program.set(program.uniform("u_place_scale"), (size - 1.0F) / size);
+    program.set(program.uniform("u_place_shift"), 0.5F / size);
+}
+
+MilkyWayPass::Clouded::Clouded()
+    : Variant("cloud/milky_way.frag"), fetch(program), enu(program.uniform("u_enu_from_galactic")) {}
+
+MilkyWayPass::MilkyWayPass(std::size_t screens) : plain_("night/milky_way.frag") {
     for (std::size_t screen = 0; screen < screens; ++screen)
         meshes_.emplace_back(std::initializer_list<int>{3, 2, 3, 1},
                              std::size_t{MilkyWay::kRows + 1} * (MilkyWay::kColumns + 1));
-    const glm::vec2 size{Map::kWidth, Map::kHeight};
-    program_.set(place_scale_, (size - 1.0F) / size);
-    program_.set(place_shift_, 0.5F / size);
 }
 
 void MilkyWayPass::prepare(const MilkyWay& milky_way, const SkyLight& light, bool dither) {
@@ -41,24 +45,40 @@ void MilkyWayPass::prepare(const MilkyWay& milky_way, const SkyLight& light, boo
             {reinterpret_cast<const float*>(vertices.data()), vertices.size_bytes() / sizeof(float)});
     }
     enu_from_galactic_ = glm::transpose(light.milky_way.galactic_from_enu);
-    program_.set(up_, glm::vec3{light.milky_way.galactic_from_enu * glm::dvec3{0.0, 0.0, 1.0}} /
-                          static_cast<float>(SkyLight::kBeltEdge));
-    program_.set(horizon_sine_,
-                 static_cast<float>(std::sin(light.horizon_elevation_rad) / SkyLight::kBeltEdge));
-    program_.set(dither_, dither ? 1.0F : 0.0F);
+    up_galactic_ = glm::vec3{light.milky_way.galactic_from_enu * glm::dvec3{0.0, 0.0, 1.0}} /
+                   static_cast<float>(SkyLight::kBeltEdge);
+    horizon_sine_ = static_cast<float>(std::sin(light.horizon_elevation_rad) / SkyLight::kBeltEdge);
+    dither_ = dither;
 }
 
-void MilkyWayPass::draw(MilkyWay& milky_way, const Channel& channel, std::size_t screen,
-                        const glm::dmat4& clip_from_enu) const {
-    const glm::dmat4 clip_from_galactic = clip_from_enu * glm::dmat4{enu_from_galactic_};
-    const auto ranges = milky_way.visible(clip_from_galactic);
-    if (ranges.empty()) return;
-    program_.use();
-    program_.set(clip_, glm::mat4{clip_from_galactic});
-    program_.set(half_size_, 0.5F * glm::vec2{channel.width_px, channel.height_px});
+void MilkyWayPass::draw_ranges(const Variant& variant, const Channel& channel, std::size_t screen,
+                               const glm::dmat4& clip_from_galactic,
+                               std::span<const IndexRange> ranges) const {
+    const gl::Program& program = variant.program;
+    program.use();
+    program.set(variant.up, up_galactic_);
+    program.set(variant.horizon_sine, horizon_sine_);
+    program.set(variant.dither, dither_ ? 1.0F : 0.0F);
+    program.set(variant.clip, glm::mat4{clip_from_galactic});
+    program.set(variant.half_size, 0.5F * glm::vec2{channel.width_px, channel.height_px});
     gl::bind_texture(0, map_->name());
     for (const IndexRange& range : ranges)
         meshes_[screen].draw_triangles(range.first, range.count);
+}
+
+void MilkyWayPass::draw(MilkyWay& milky_way, const Channel& channel, std::size_t screen,
+                        const glm::dmat4& clip_from_enu, const CloudPass* clouds) {
+    const glm::dmat4 clip_from_galactic = clip_from_enu * glm::dmat4{enu_from_galactic_};
+    const auto ranges = milky_way.visible(clip_from_galactic);
+    if (ranges.empty()) return;
+    if (clouds == nullptr) {
+        draw_ranges(plain_, channel, screen, clip_from_galactic, ranges);
+        return;
+    }
+    if (!clouded_) clouded_.emplace();
+    clouded_->fetch.set(clouded_->program, clouds->map_size());
+    clouded_->program.set(clouded_->enu, glm::mat3{enu_from_galactic_});
+    draw_ranges(*clouded_, channel, screen, clip_from_galactic, ranges);
 }
 
 }  // namespace skyig::render

@@ -12,6 +12,7 @@
 #include "render/night/night_sky.h"
 #include "render/night/star_colour.h"
 #include "render/night/star_scintillation.h"
+#include "render/precipitation/streak_field.h"
 #include "render/sky/sea_surface.h"
 #include "render/sky/staleness.h"
 
@@ -83,6 +84,18 @@ Verdict plan_disc(bool enabled, double elevation_rad, double radius_rad, double 
     return {true, "above the horizon"};
 }
 
+Verdict plan_precipitation(const Scene& scene) {
+    const auto falling = scene.weather.all_precipitations();
+    const bool any = std::any_of(falling.begin(), falling.end(),
+                                 [](const Precipitation& what) { return what.rate_mm_h > 0.0; });
+    if (!any) return {false, "nothing falls"};
+    const bool here = std::any_of(falling.begin(), falling.end(), [&](const Precipitation& what) {
+        return precipitation::falls_on(what, scene.eye);
+    });
+    if (!here) return {false, "the eye is above what falls"};
+    return {true, "something falls round the eye"};
+}
+
 Cost cost_of(Pass pass) {
     switch (pass) {
         case Pass::kAirTables:
@@ -90,7 +103,11 @@ Cost cost_of(Pass pass) {
         case Pass::kSunSky:
         case Pass::kMoonSky:
         case Pass::kNightSky:
+        case Pass::kVeil:
             return Cost::kNewTable;
+        case Pass::kClouds:
+        case Pass::kNearClouds:
+            return Cost::kFrame;
         case Pass::kDome:
         case Pass::kWaves:
         case Pass::kMilkyWay:
@@ -98,6 +115,8 @@ Cost cost_of(Pass pass) {
         case Pass::kCorona:
         case Pass::kSunDisc:
         case Pass::kMoonDisc:
+        case Pass::kWetThings:
+        case Pass::kPrecipitation:
         case Pass::kSunGlare:
         case Pass::kMoonGlare:
             break;
@@ -160,13 +179,14 @@ void plan_night(Plan& plan, double sun_rad) {
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables", "sun sky", "moon sky", "night sky", "dome",      "waves",     "milky way",
-        "stars",      "corona",  "sun disc", "moon disc", "sun glare", "moon glare"};
+        "air tables",  "sun sky",   "moon sky",   "night sky",     "veil",      "clouds",
+        "near clouds", "dome",      "waves",      "milky way",     "stars",     "corona",
+        "sun disc",    "moon disc", "wet things", "precipitation", "sun glare", "moon glare"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
 std::string_view cost_name(Cost cost) noexcept {
-    constexpr std::array<std::string_view, 3> kNames{"per air", "per table", "per channel"};
+    constexpr std::array<std::string_view, 4> kNames{"per air", "per table", "per frame", "per channel"};
     return kNames[static_cast<std::size_t>(cost)];
 }
 
@@ -201,6 +221,9 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kAirTables, {air_stale, air_stale ? "the air is new" : "the air has not changed"});
     plan_skies(plan, scene, held, sun_rad, moon_rad);
     plan_night(plan, sun_rad);
+    put(plan, Pass::kVeil, {false, "not decided yet"});
+    put(plan, Pass::kClouds, {false, "not decided yet"});
+    put(plan, Pass::kNearClouds, {false, "not decided yet"});
     put(plan, Pass::kDome, {true, "smooth light of all directions"});
     put(plan, Pass::kWaves, {false, "not decided yet"});
     put(plan, Pass::kStars, {false, "not decided yet"});
@@ -212,6 +235,9 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kSunDisc, plan_disc(scene.sun.enabled, sun_rad, sun_radius_rad, sets_at_rad));
     put(plan, Pass::kMoonDisc,
         plan_disc(scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad, sets_at_rad));
+    const bool wet = scene.ground.kind == Ground::Kind::kLand && scene.ground.wet > 0.0;
+    put(plan, Pass::kWetThings, {wet, wet ? "another renderer's land is wet" : "the land is dry"});
+    put(plan, Pass::kPrecipitation, plan_precipitation(scene));
     for (const Pass pass : {Pass::kSunGlare, Pass::kMoonGlare})
         put(plan, pass, {false, "not decided yet"});
     return plan;
@@ -224,6 +250,31 @@ DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& qu
     return {std::clamp(held.columns, least.columns, ample.columns),
             std::clamp(held.sky_rows, least.sky_rows, ample.sky_rows),
             std::clamp(held.ground_rows, least.ground_rows, ample.ground_rows)};
+}
+
+void plan_veil(Plan& plan, const Scene& scene, std::size_t segments) noexcept {
+    if (scene.weather.obscurant_count == 0) {
+        put(plan, Pass::kVeil, {false, "there is no fog, haze, dust or the like"});
+    } else if (segments == 0) {
+        put(plan, Pass::kVeil, {false, "what there is, is nothing where the eye is"});
+    } else {
+        put(plan, Pass::kVeil, {true, "it rides on the dome's vertices, free of cost by pixel"});
+    }
+    plan.passes[static_cast<std::size_t>(Pass::kVeil)].resolution = {static_cast<int>(segments), 0};
+}
+
+void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bool near_shown) noexcept {
+    const auto layers = scene.weather.all_clouds();
+    const bool any = std::any_of(layers.begin(), layers.end(),
+                                 [](const CloudLayer& layer) { return layer.coverage > 0.0; });
+    put(plan, Pass::kClouds,
+        any ? Verdict{true, "clouds stand in the sky"} : Verdict{false, "no layer has any"});
+    put(plan, Pass::kNearClouds,
+        !any         ? Verdict{false, "no layer has any"}
+        : near_shown ? Verdict{true, "the eye is in a layer or soon may be"}
+                     : Verdict{false, "no layer is near the eye's height"});
+    plan.passes[static_cast<std::size_t>(Pass::kClouds)].resolution = {2 * map_size, map_size};
+    plan.passes[static_cast<std::size_t>(Pass::kNearClouds)].resolution = {2 * near_size, near_size};
 }
 
 void plan_waves(Plan& plan, const Scene& scene, const sky::SeaWaves& waves, bool lit) noexcept {

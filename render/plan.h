@@ -18,7 +18,7 @@ class DomeBend;
 struct DomeSize;
 
 /// When a pass costs.
-enum class Cost { kNewAir, kNewTable, kChannel };
+enum class Cost { kNewAir, kNewTable, kFrame, kChannel };
 [[nodiscard]] std::string_view cost_name(Cost cost) noexcept;
 
 /// Rows and columns of what a pass computes; 0 where it has none.
@@ -98,8 +98,8 @@ struct Plan {
 [[nodiscard]] double direction_table_error_codes(const sky::SkyViewSize& size) noexcept;
 
 /// \param scene  the frame; \param held  what is in the tables; \param refraction  of the frame's eye and
-/// air. Deterministic: equal input gives an equal plan. Dome, waves, stars, the Milky Way and glare are left
-/// for plan_dome(), plan_waves(), plan_stars(), plan_milky_way() and plan_glare(), which need the light that
+/// air. Deterministic: equal input gives an equal plan. Veil, dome, waves, stars, the Milky Way and glare are left
+/// for plan_veil(), plan_dome(), plan_waves(), plan_stars(), plan_milky_way() and plan_glare(), which need the light that
 /// this plan leads to.
 [[nodiscard]] Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction,
                              const Quality& quality = {}) noexcept;
@@ -107,6 +107,13 @@ struct Plan {
 /// Decides how fine the dome is laid out: the smallest size that keeps to the budget, but no smaller than
 /// `held` while that is not clearly too fine. \param held  the dome in use
 [[nodiscard]] DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& quality) noexcept;
+
+/// Decides on the veil of obscurants. \param segments  of fog::Veil
+void plan_veil(Plan& plan, const Scene& scene, std::size_t segments) noexcept;
+
+/// Decides on the cloud maps. \param map_size  texels on the side of a half; \param near_size  likewise
+/// \param near_shown  whether clouds may stand round the eye
+void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bool near_shown) noexcept;
 
 /// Decides on the waves of the sea, drawn over `resolution` of the dome's quads. \param waves  that a pixel
 /// resolves below the eye \param lit  whether Sun or Moon light the air over a sea

@@ -8,21 +8,26 @@
 namespace skyig::render {
 
 enum class Pass {
-    kAirTables,  ///< optical columns and multiple scattering of a new air
-    kSunSky,     ///< direction table of sunlit air
-    kMoonSky,    ///< direction table of moonlit air
-    kNightSky,   ///< direction table of airglow, zodiacal light, even starlight, towns
-    kDome,       ///< smooth light of all directions, toned at the vertices
-    kWaves,      ///< waves of the sea, where pixels resolve them
-    kMilkyWay,   ///< what the Milky Way adds to even starlight
+    kAirTables,   ///< optical columns and multiple scattering of a new air
+    kSunSky,      ///< direction table of sunlit air
+    kMoonSky,     ///< direction table of moonlit air
+    kNightSky,    ///< direction table of airglow, zodiacal light, even starlight, towns
+    kVeil,        ///< light of fog, haze, dust and their like, on the dome's vertices
+    kClouds,      ///< map of far clouds for all channels
+    kNearClouds,  ///< map of clouds round the eye
+    kDome,        ///< smooth light of all directions, toned at the vertices
+    kWaves,       ///< waves of the sea, where pixels resolve them
+    kMilkyWay,    ///< what the Milky Way adds to even starlight
     kStars,
     kCorona,  ///< what is left of the Sun in a total eclipse
     kSunDisc,
     kMoonDisc,
-    kSunGlare,  ///< the veil round the disc in the eye
+    kWetThings,      ///< the sky in the film on things of another renderer
+    kPrecipitation,  ///< streaks of what falls near the eye
+    kSunGlare,       ///< the veil round the disc in the eye
     kMoonGlare,
 };
-inline constexpr std::size_t kPassCount = 13;
+inline constexpr std::size_t kPassCount = 18;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 
@@ -31,6 +36,10 @@ struct Quality {
     /// Largest error that smooth light may have by being drawn coarser than pixel by pixel, 8-bit display
     /// codes, 0.1..8.
     double error_codes = 0.5;
+    /// Texels on the side of a half of the cloud map, 512, 1024 or 2048; 0: by the rig's finest pixel.
+    int cloud_map_size = 0;
+    /// Of its tiles, what one frame follows anew, 1..256.
+    int cloud_tiles_a_frame = 12;
     /// Passes that run even where they would not show. With Pass::kStars no star is too faint.
     std::bitset<kPassCount> forced;
 };

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "render/cloud_pass.h"
 #include "render/deferred_pass.h"
 #include "render/discs.h"
 #include "render/eye/tone_curve.h"
@@ -14,10 +15,12 @@
 #include "render/gl/program.h"
 #include "render/glare_pass.h"
 #include "render/milky_way_pass.h"
+#include "render/precipitation_pass.h"
 #include "render/screens.h"
 #include "render/sea_pass.h"
 #include "render/sky_frame.h"
 #include "render/star_pass.h"
+#include "render/wet_pass.h"
 
 namespace skyig::render {
 
@@ -66,11 +69,20 @@ struct Renderer::Impl {
     void prepare_discs(std::size_t screen);
     void prepare_moon(std::size_t screen);
     void draw_dome(std::size_t channel, const glm::dmat4& clip_from_enu);
+    void draw_clouded_dome(std::size_t channel, const glm::dmat4& clip_from_mesh, std::uint32_t sea_rows);
+    void prepare_clouds();
+    [[nodiscard]] const CloudPass* shown_clouds() const noexcept {
+        return frame.clouds().shown() ? clouds.get() : nullptr;
+    }
     void refresh_deferred();
     [[nodiscard]] bool shows(std::size_t channel) const noexcept;
     [[nodiscard]] glm::dmat4 clip_from_enu(std::size_t channel) const noexcept;
+    [[nodiscard]] shaders32::ToneParameters tone32(std::size_t channel) const {
+        return eye::single_precision(frame.tone(screens.of_channel[channel]));
+    }
     void draw_sky(std::size_t channel);
     void draw_discs(std::size_t channel);
+    void draw_wet(std::size_t channel, const DeferredInput& input);
 
     std::vector<Channel> channels;
     DisplaySettings display;
@@ -84,15 +96,18 @@ struct Renderer::Impl {
     std::vector<gl::Mesh> dome_meshes;  // one a screen
     std::uint64_t triangles_revision = 0;
     std::uint64_t vertices_revision = 0;
+    std::unique_ptr<CloudPass> clouds;  // once there are any
     SeaPass sea{screens.distinct.size()};
     MilkyWayPass milky_way{screens.distinct.size()};
     StarPass stars;
     Corona corona;
     SunDisc sun_disc;
     MoonDisc moon_disc;
+    PrecipitationPass precipitation;
     GlarePass sun_glare;
     GlarePass moon_glare;
     std::unique_ptr<DeferredPass> deferred;  // once a scene is drawn
+    std::unique_ptr<WetPass> wet;            // once a wet one is
 
     // The frame in hand.
     SkyFrame frame;
@@ -119,10 +134,8 @@ void Renderer::Impl::prepare_discs(std::size_t screen) {
     const shaders64::ToneParameters& tone = frame.tone(screen);
     const auto tone32 = eye::single_precision(tone);
     discs_screen = screen;
-    if (plan.needs(Pass::kCorona))
-        corona.prepare(scene, frame.air(), frame.light(), pixel_rad, tone32, plan.corona_share);
-    if (plan.needs(Pass::kSunDisc))
-        sun_disc.prepare(scene, frame.air(), frame.light(), pixel_rad, tone32, display.dither);
+    if (plan.needs(Pass::kCorona)) corona.prepare(scene, frame, pixel_rad, tone32, plan.corona_share);
+    if (plan.needs(Pass::kSunDisc)) sun_disc.prepare(scene, frame, pixel_rad, tone32, display.dither);
     if (plan.needs(Pass::kMoonDisc)) prepare_moon(screen);
     if (plan.needs(Pass::kSunGlare)) sun_glare.prepare(frame.sun_glare(screen), pixel_rad, display.dither);
     if (plan.needs(Pass::kMoonGlare)) moon_glare.prepare(frame.moon_glare(screen), pixel_rad, display.dither);
@@ -130,8 +143,7 @@ void Renderer::Impl::prepare_discs(std::size_t screen) {
 
 void Renderer::Impl::prepare_moon(std::size_t screen) {
     moon_disc.prepare(
-        scene, frame.air(), frame.light(), pixel_rad, eye::single_precision(frame.tone(screen)),
-        display.dither,
+        scene, frame, pixel_rad, eye::single_precision(frame.tone(screen)), display.dither,
         moon_fovea(scene, frame.air(), frame.light(), frame.display(screen), frame.tone(screen)),
         frame.moon_glare(screen).limb());
 }
@@ -145,15 +157,47 @@ void Renderer::Impl::draw_dome(std::size_t index, const glm::dmat4& clip_from_en
     dome_program.set(dome_share, static_cast<float>(frame.dome().share()));
     const std::size_t screen = screens.of_channel[index];
     const auto sea_rows = static_cast<std::uint32_t>(frame.sea_rows());
-    for (const IndexRange& range : frame.dome().visible(clip_from_mesh, {.first = sea_rows}))
+    const bool clouded = frame.clouds().shown();
+    const Marked plain = clouded ? Marked::kNo : Marked::kAll;
+    for (const IndexRange& range : frame.dome().visible(clip_from_mesh, {.first = sea_rows}, plain))
         dome_meshes[screen].draw_triangles(range.first, range.count);
+    if (sea_rows > 0) {
+        sea.draw(channel, screen, eye::single_precision(frame.tone(screen)), clip_from_mesh,
+                 frame.dome().visible(clip_from_mesh, {.end = sea_rows}));
+    }
+    if (clouded) draw_clouded_dome(index, clip_from_mesh, sea_rows);
+}
+
+void Renderer::Impl::draw_clouded_dome(std::size_t index, const glm::dmat4& clip_from_mesh,
+                                       std::uint32_t sea_rows) {
+    const std::size_t screen = screens.of_channel[index];
+    const auto draw_ranges = [&](std::span<const IndexRange> ranges) {
+        for (const IndexRange& range : ranges)
+            dome_meshes[screen].draw_triangles(range.first, range.count);
+    };
+    clouds->bind(screen);
+    clouds->use_dome(channels[index], clip_from_mesh, frame.enu_from_mesh(), frame.dome().share());
+    draw_ranges(frame.dome().visible(clip_from_mesh, {.first = sea_rows}, Marked::kYes));
     if (sea_rows == 0) return;
-    sea.draw(channel, screen, eye::single_precision(frame.tone(screen)), clip_from_mesh,
-             frame.dome().visible(clip_from_mesh, {.end = sea_rows}));
+    // Waves are drawn already.
+    clouds->use_over(clip_from_mesh, frame.enu_from_mesh());
+    gl::set_blend(gl::Blend::kOver);
+    draw_ranges(frame.dome().visible(clip_from_mesh, {.end = sea_rows}, Marked::kYes));
+    gl::set_blend(gl::Blend::kReplace);
+}
+
+void Renderer::Impl::prepare_clouds() {
+    report.cloud_rays = 0;
+    report.cloud_tiles = 0;
+    if (!frame.clouds().shown()) return;
+    if (!clouds) clouds = std::make_unique<CloudPass>(screens.distinct.size());
+    clouds->prepare(frame.clouds(), display.dither);
+    report.cloud_rays = frame.clouds().map().rays_marched() + frame.clouds().map().near_rays();
+    report.cloud_tiles = frame.clouds().toned().size();
 }
 
 void Renderer::Impl::refresh_deferred() {
-    deferred->prepare(scene, frame.plan(), frame.tables(), frame.light(), display.dither);
+    deferred->prepare(frame.air_between(scene), display.dither);
 }
 
 Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality,
@@ -167,12 +211,17 @@ Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display
 
 Renderer::~Renderer() = default;
 
+void Renderer::draw_clouds(Clouds clouds) {
+    impl_->frame.draw_clouds(std::move(clouds));
+}
+
 const FrameReport& Renderer::prepare(const Scene& scene) {
     Impl& m = *impl_;
     m.scene = scene;
     m.pixel_rad = finest_pixel_rad(m.channels, scene.channel_views());
     m.frame.prepare(scene, m.pixel_rad, smallest_pixel_sr(m.channels, scene.channel_views()));
     m.upload_dome();
+    m.prepare_clouds();
     if (m.frame.sea_rows() > 0) m.sea.prepare(m.frame, m.display.dither);
     if (m.frame.light().milky_way.map != nullptr)
         m.milky_way.prepare(m.frame.milky_way(), m.frame.light(), m.display.dither);
@@ -181,8 +230,11 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
         m.stars.prepare(scene, m.frame, m.pixel_rad);
         m.report.stars_drawn = m.stars.count();
     }
+    if (m.frame.plan().needs(Pass::kPrecipitation))
+        m.precipitation.prepare(scene, m.frame.light(), m.pixel_rad);
     m.prepare_discs(0);
     if (m.deferred) m.refresh_deferred();
+    if (m.wet && m.frame.plan().needs(Pass::kWetThings)) m.wet->prepare(scene, m.frame.light());
     m.report.plan = m.frame.plan();
     m.report.adaptation_cd_m2 = m.frame.adaptation_cd_m2();
     m.report.gl_errors = m.log.errors();
@@ -209,9 +261,9 @@ void Renderer::Impl::draw_sky(std::size_t channel) {
     draw_dome(channel, clip);
     gl::set_blend(gl::Blend::kAdd);
     if (frame.light().milky_way.map != nullptr)
-        milky_way.draw(frame.milky_way(), channels[channel], screen, clip);
+        milky_way.draw(frame.milky_way(), channels[channel], screen, clip, shown_clouds());
     if (plan.needs(Pass::kStars))
-        stars.draw(channels[channel], scene.views[channel], eye::single_precision(frame.tone(screen)));
+        stars.draw(channels[channel], scene.views[channel], tone32(channel), shown_clouds());
     if (plan.needs(Pass::kCorona)) corona.draw(glm::mat4{clip});
 }
 
@@ -222,6 +274,14 @@ void Renderer::Impl::draw_discs(std::size_t channel) {
     if (report.plan.needs(Pass::kMoonDisc)) moon_disc.draw(clip);
 }
 
+void Renderer::Impl::draw_wet(std::size_t channel, const DeferredInput& input) {
+    if (!wet) {
+        wet = std::make_unique<WetPass>();
+        wet->prepare(scene, frame.light());
+    }
+    wet->draw(channels[channel], scene.views[channel], tone32(channel), input);
+}
+
 void Renderer::draw(std::size_t channel) {
     Impl& m = *impl_;
     if (!m.shows(channel)) return;
@@ -229,6 +289,8 @@ void Renderer::draw(std::size_t channel) {
     m.draw_sky(channel);
     if (m.report.plan.needs(Pass::kMoonGlare)) m.moon_glare.draw(clip);
     m.draw_discs(channel);
+    if (m.report.plan.needs(Pass::kPrecipitation))
+        m.precipitation.draw(m.scene.views[channel], m.tone32(channel));
     gl::set_blend(gl::Blend::kAdd);
     // Over the Moon too, when it stands before the Sun.
     if (m.report.plan.needs(Pass::kSunGlare)) m.sun_glare.draw_around(clip);
@@ -249,14 +311,22 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
     m.draw_sky(channel);
     m.draw_discs(channel);
     gl::set_blend(gl::Blend::kReplace);
-    m.deferred->draw(m.scene.views[channel], input,
-                     eye::single_precision(m.frame.tone(m.screens.of_channel[channel])));
+    m.deferred->draw(m.scene.views[channel], input, m.tone32(channel));
+    gl::set_blend(gl::Blend::kCoverage);
+    if (m.report.plan.needs(Pass::kWetThings)) m.draw_wet(channel, input);
+    if (m.report.plan.needs(Pass::kPrecipitation)) {
+        m.precipitation.draw_before(m.scene.views[channel], m.tone32(channel), input);
+    }
     // Glare is in the eye: before things too.
     const glm::mat4 clip{m.clip_from_enu(channel)};
     gl::set_blend(gl::Blend::kAdd);
     if (m.report.plan.needs(Pass::kMoonGlare)) m.moon_glare.draw_around(clip);
     if (m.report.plan.needs(Pass::kSunGlare)) m.sun_glare.draw_around(clip);
     gl::finish();
+}
+
+unsigned Renderer::texture(std::size_t channel) const noexcept {
+    return channel < impl_->targets.size() ? impl_->targets[channel].texture() : 0U;
 }
 
 void Renderer::read_back(std::size_t channel, std::span<std::byte> rgba) {
@@ -282,8 +352,9 @@ glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu, std::size
 glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu, double distance_m,
                                       const glm::dvec3& rgb_cd_m2) const {
     const shaders64::ToneParameters& tone = impl_->frame.tone();
-    if (!impl_->deferred) return shaders64::shown(rgb_cd_m2, tone);
-    return shaders64::shown(impl_->deferred->air().under_air(rgb_cd_m2, direction_enu, distance_m), tone);
+    const DeferredAir* air = impl_->frame.air_between();
+    if (air == nullptr) return shaders64::shown(rgb_cd_m2, tone);
+    return shaders64::shown(air->under_air(rgb_cd_m2, direction_enu, distance_m), tone);
 }
 
 }  // namespace skyig::render

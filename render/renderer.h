@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/channel.h"
+#include "render/clouds.h"
 #include "render/deferred.h"
 #include "render/display.h"
 #include "render/plan.h"
@@ -24,6 +25,9 @@ struct FrameReport {
     /// The one luminance that all channels of this frame are adapted to, cd/m2.
     double adaptation_cd_m2 = 0.0;
     std::size_t stars_drawn = 0;
+    /// Through clouds, for the cloud maps of this frame, and tiles that were toned.
+    int cloud_rays = 0;
+    std::size_t cloud_tiles = 0;
     /// GL errors since start-up (debug output of type error).
     std::uint64_t gl_errors = 0;
 };
@@ -41,6 +45,9 @@ class Renderer {
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
+    /// From the next frame on the scene's weather has clouds.
+    void draw_clouds(Clouds clouds);
+
     /// All work that the channels share. Channels beyond `scene.view_count` and those whose frustum has no
     /// area keep their last picture (black at first). Allocates nothing in steady state. The first call
     /// builds all tables and may throw std::bad_alloc; later ones do not throw.
@@ -53,6 +60,10 @@ class Renderer {
     /// first call allocates and builds the table of the air between (some 40 ms), from then on prepare()
     /// keeps it; it may throw like the constructor. Ridges stand where a straight ray sees them.
     void draw_scene(std::size_t channel, const DeferredInput& input);
+
+    /// The GL name of a channel's picture, its bottom row first; complete after draw(). 0 for a channel that
+    /// is not there.
+    [[nodiscard]] unsigned texture(std::size_t channel) const noexcept;
 
     /// Copies a channel's pixels: RGBA, 8 bits, top row first, width * height * 4 bytes.
     void read_back(std::size_t channel, std::span<std::byte> rgba);

@@ -13,6 +13,7 @@
 #include "render/channel.h"
 #include "render/night_settings.h"
 #include "render/sky_settings.h"
+#include "render/weather.h"
 
 namespace skyig::render {
 
@@ -93,6 +94,8 @@ struct Ground {
     std::optional<double> albedo;
     /// Part of the land that lies under snow, 0..1.
     double snow = 0.0;
+    /// How wet the rest of the land is by rain, 0..1: darker, and with a film of water that mirrors the sky.
+    double wet = 0.0;
     /// Roughens the sea; at about 10 m, where it blows from clockwise from true north.
     double wind_m_s = 0.0;
     double wind_from_rad = 0.0;
@@ -157,6 +160,7 @@ struct Scene {
     Air air;
     Ground ground;
     Sea sea;
+    Weather weather;
     /// Which model draws the day sky.
     SkySettings sky;
     /// What shines in the dark one.

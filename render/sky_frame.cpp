@@ -16,6 +16,9 @@ namespace {
 
 constexpr double kZenith_rad = 1.5707;
 
+// By how much the dome's vertices may stand off where they were laid out.
+constexpr double kHorizonShift_rad = 0.01;
+
 // A shift of adaptation smaller than this moves no pixel by half a display code.
 constexpr double kAdaptationStep = 0.004;
 
@@ -25,6 +28,22 @@ constexpr float kLightStep = 5e-4F;
 // Whether a colour's factor has changed by what could move a display code.
 bool scale_moved(const glm::vec3& a, const glm::vec3& b) {
     return glm::any(glm::greaterThan(glm::abs(a - b), kLightStep * glm::max(a, b)));
+}
+
+double unit(double share) {
+    return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
+}
+
+// What lightning gives to white ground, or to the air where that is brighter.
+float brightest_of_flash(const SkyLight& light) {
+    const glm::vec3 ground = light.flash.ground_lux * static_cast<float>(1.0 / std::numbers::pi);
+    return shaders32::luminance_709(glm::max(ground, light.flash.sky_cd_m2));
+}
+
+// Whether it has changed by what could show; that it is over always does.
+bool flash_moved(float now_cd_m2, float shaded_cd_m2, double adaptation_cd_m2) {
+    const float step = std::abs(now_cd_m2 - shaded_cd_m2);
+    return step > 0.0F && (now_cd_m2 == 0.0F || step > kLightStep * static_cast<float>(adaptation_cd_m2));
 }
 
 ClippedLight clipped_light(const std::array<double, eye::kProbeCount>& probes_cd_m2,
@@ -55,6 +74,7 @@ SkyFrame::SkyFrame(const DisplaySettings& display, const Quality& quality, std::
       moon_glares_(displays_.size()),
       dome_(displays_.size()),
       sea_(displays_.size()),
+      clouds_(displays_.size()),
       milky_way_(displays_.size()),
       display_tones_(displays_.size()),
       tones_(displays_.size()),
@@ -68,13 +88,75 @@ void SkyFrame::prepare(const Scene& scene, double pixel_rad, double smallest_pix
     plan_ = make_plan(scene, tables_.held(scene), refraction, quality_);
     tables_.update(scene, plan_);
     light_ = tables_.light(scene, plan_, refraction);
+    veil_.lay(scene, tables_.air(), static_cast<double>(kLightStep), light_);
+    plan_veil(plan_, scene, veil_.veil().segments().size());
+    take_weather(scene);
+    air_between_fresh_ = false;
+    if (air_between_) air_between(scene);
+    refresh_clouds(scene, pixel_rad);
     adapt(scene);
     tone_screens(scene, smallest_pixel_sr);
     refresh_milky_way(scene);
     dazzle(scene);
     refresh_dome(pixel_rad);
     refresh_sea(scene, pixel_rad);
+    tone_clouds();
     tell_dome();
+}
+
+const DeferredAir& SkyFrame::air_between(const Scene& scene) {
+    if (!air_between_) air_between_.emplace();
+    if (!air_between_fresh_) air_between_->update(scene, plan_, tables_, light_);
+    air_between_fresh_ = true;
+    return *air_between_;
+}
+
+void SkyFrame::refresh_clouds(const Scene& scene, double pixel_rad) {
+    const int size = quality_.cloud_map_size > 0 ? quality_.cloud_map_size
+                                                 : cloud::map_size_for(pixel_rad, scene.channel_views());
+    plan_clouds(plan_, scene, size, cloud::NearMap::kSize, false);
+    if (!plan_.needs(Pass::kClouds) || made_clouds_.maker == nullptr) {
+        clouds_.stop();
+        return;
+    }
+    air_between(scene);
+    if (made_clouds_.light != nullptr) made_clouds_.light(scene, plan_, tables_, light_, cloud_light_);
+    clouds_.follow(*made_clouds_.maker, scene, cloud_light_, light_, tables_.jumped(), size,
+                   quality_.cloud_tiles_a_frame);
+    plan_clouds(plan_, scene, size, cloud::NearMap::kSize, clouds_.map().near_map() != nullptr);
+}
+
+void SkyFrame::tone_clouds() noexcept {
+    if (!clouds_.shown()) return;
+    clouds_.tone(light_, *air_between_, tones_, light_revision_, vertices_revision_);
+    const glm::dmat3 mesh_from_enu = glm::transpose(glm::dmat3{enu_from_mesh()});
+    dome_.mark([&](const glm::dvec3& axis_mesh, double sine) {
+        const glm::dvec3 axis = glm::transpose(mesh_from_enu) * axis_mesh;
+        const double reach_rad = std::asin(std::min(sine, 1.0)) + kHorizonShift_rad;
+        return std::any_of(clouds_.clouded().begin(), clouds_.clouded().end(), [&](const cloud::Cone& cone) {
+            return glm::dot(axis, cone.axis) > std::cos(std::min(reach_rad + std::asin(cone.sine), 3.14));
+        });
+    });
+}
+
+glm::dvec3 SkyFrame::through_clouds(const glm::dvec3& behind_cd_m2,
+                                    const glm::dvec3& direction_enu) const noexcept {
+    if (!clouds_.shown()) return behind_cd_m2;
+    return clouds_.seen_through(*air_between_, behind_cd_m2, direction_enu);
+}
+
+void SkyFrame::take_weather(const Scene& scene) noexcept {
+    const Air& air = scene.air;
+    const double extinction_per_m =
+        air.model_enabled ? -std::log(air.visibility_contrast) / std::max(air.visibility_m, 1.0) : 0.0;
+    flashes_ = cloud::flashes_at(scene);
+    light_.flash = cloud::light_of(flashes_, scene, extinction_per_m);
+    light_.near_extinction_per_m = extinction_per_m;
+    const Ground& ground = scene.ground;
+    // The rest of it soaks in.
+    constexpr double kPuddles = 0.5;
+    light_.film =
+        ground.kind == Ground::Kind::kLand ? kPuddles * unit(ground.wet) * (1.0 - unit(ground.snow)) : 0.0;
 }
 
 void SkyFrame::adapt(const Scene& scene) {
@@ -83,7 +165,7 @@ void SkyFrame::adapt(const Scene& scene) {
         const eye::ProbeDirection& probe = eye::probe_directions()[i];
         const double elevation =
             std::min(light_.horizon_elevation_rad + probe.above_horizon_rad, kZenith_rad);
-        probes_cd_m2_[i] = luminance_cd_m2(elevation, probe.azimuth_rad);
+        probes_cd_m2_[i] = probed_luminance_cd_m2(elevation, probe.azimuth_rad, i);
         all.add(probes_cd_m2_[i]);
     }
     const DisplaySettings& eye = displays_.front();
@@ -93,7 +175,7 @@ void SkyFrame::adapt(const Scene& scene) {
             if (!has_area(view.frustum)) continue;
             for (const eye::ViewProbe& probe : eye::view_probes(view)) {
                 const Horizontal at = horizontal_of(probe.direction_enu);
-                seen.add(luminance_cd_m2(at.elevation_rad, at.azimuth_rad), probe.solid_angle_sr);
+                seen.add(clouded_luminance_cd_m2(at.elevation_rad, at.azimuth_rad), probe.solid_angle_sr);
             }
         }
         if (!seen.empty()) all = seen;
@@ -141,6 +223,17 @@ double SkyFrame::luminance_cd_m2(double elevation_rad, double azimuth_rad) const
         shaders32::luminance_709(light_.rgb_cd_m2(elevation_rad, azimuth_rad, Side::kByElevation)));
 }
 
+double SkyFrame::clouded_luminance_cd_m2(double elevation_rad, double azimuth_rad) const {
+    const glm::dvec3 behind{light_.rgb_cd_m2(elevation_rad, azimuth_rad, Side::kByElevation)};
+    return shaders64::luminance_709(through_clouds(behind, direction_of({elevation_rad, azimuth_rad})));
+}
+
+double SkyFrame::probed_luminance_cd_m2(double elevation_rad, double azimuth_rad, std::size_t probe) const {
+    if (!clouds_.shown()) return luminance_cd_m2(elevation_rad, azimuth_rad);
+    const glm::dvec3 behind{light_.rgb_cd_m2(elevation_rad, azimuth_rad, Side::kByElevation)};
+    return shaders64::luminance_709(clouds_.probed(*air_between_, behind, probe));
+}
+
 // Adaptation leaves the belt out, so that it may depend on what the eye sees at all.
 void SkyFrame::refresh_milky_way(const Scene& scene) {
     plan_milky_way(plan_, scene, milky_way_codes_);
@@ -159,8 +252,12 @@ void SkyFrame::dazzle(const Scene& scene) {
     // Luminance is without an eye.
     const bool wanted = displays_.front().glare && target_ == Target::kDisplay;
     if (wanted) {
-        veil(render::sun_glare(scene, tables_.air(), light_), sun_glares_, sun_veiled_);
-        veil(render::moon_glare(scene, tables_.air(), light_), moon_glares_, moon_veiled_);
+        GlareSource sun = render::sun_glare(scene, tables_.air(), light_);
+        GlareSource moon = render::moon_glare(scene, tables_.air(), light_);
+        sun.rgb_lux *= clouds_.transmittance(CloudFrame::Body::kSun);
+        moon.rgb_lux *= clouds_.transmittance(CloudFrame::Body::kMoon);
+        veil(sun, sun_glares_, sun_veiled_);
+        veil(moon, moon_glares_, moon_veiled_);
     }
     const auto reach_rad = [&](const std::vector<Glare>& glares) {
         double farthest = 0.0;  // as far as any screen shows it
@@ -175,7 +272,7 @@ void SkyFrame::dazzle(const Scene& scene) {
 void SkyFrame::veil(const GlareSource& source, std::vector<Glare>& glares, VeilMade& made) {
     const double adaptation = adaptation_.luminance_cd_m2();
     const bool serves =
-        made.tables == tables_.revision() && !tables_.jumped() &&
+        made.tables == tables_.revision() && made.fog == light_.veil_revision && !tables_.jumped() &&
         std::abs(adaptation - made.adaptation_cd_m2) <= kAdaptationStep * made.adaptation_cd_m2 &&
         still_serves(made.source, source);
     if (serves) {
@@ -185,12 +282,13 @@ void SkyFrame::veil(const GlareSource& source, std::vector<Glare>& glares, VeilM
     }
     for (std::size_t screen = 0; screen < glares.size(); ++screen)
         glares[screen].update(source, light_, displays_[screen], tones_[screen]);
-    made = {source, tables_.revision(), adaptation};
+    made = {source, tables_.revision(), adaptation, light_.veil_revision};
 }
 
 void SkyFrame::refresh_dome(double pixel_rad) {
     const double adaptation = adaptation_.luminance_cd_m2();
-    const DomeLayout wanted = dome_layout(light_, pixel_rad, adaptation, tables_.air_in_use());
+    DomeLayout wanted = dome_layout(light_, pixel_rad, adaptation, tables_.air_in_use());
+    wanted.veil = veil_.bends_revision();
     const bool at_once = shaded_.tables == 0 || tables_.jumped();
     // A fade that runs is not begun anew for nodes that only could stand better.
     const bool lay = at_once || !still_serves(dome_.layout(), wanted) ||
@@ -198,9 +296,13 @@ void SkyFrame::refresh_dome(double pixel_rad) {
     const bool replaced = lay || shaded_.tables != tables_.revision();
     const bool turned = std::abs(std::remainder(wanted.second_azimuth_rad - shaded_.moon_from_sun_rad,
                                                 2.0 * std::numbers::pi)) > static_cast<double>(kLightStep);
+    const float flash_cd_m2 = brightest_of_flash(light_);
     const bool scaled = scale_moved(light_.sun.scale_xyz, shaded_.sun_scale) ||
                         scale_moved(light_.moon.scale_xyz, shaded_.moon_scale) || turned ||
-                        std::abs(light_.night_share - shaded_.night_share) > kLightStep;
+                        std::abs(light_.night_share - shaded_.night_share) > kLightStep ||
+                        light_.veil_revision != shaded_.veil ||
+                        std::abs(light_.film - shaded_.film) > static_cast<double>(kLightStep) ||
+                        flash_moved(flash_cd_m2, shaded_.flash_cd_m2, adaptation);
     const bool toned =
         std::abs(adaptation - shaded_.adaptation_cd_m2) > kAdaptationStep * shaded_.adaptation_cd_m2 ||
         exposure_exponent_ != shaded_.exposure_exponent;
@@ -222,6 +324,9 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         shaded_.moon_scale = light_.moon.scale_xyz;
         shaded_.moon_from_sun_rad = wanted.second_azimuth_rad;
         shaded_.night_share = light_.night_share;
+        shaded_.veil = light_.veil_revision;
+        shaded_.flash_cd_m2 = flash_cd_m2;
+        shaded_.film = light_.film;
     }
     if (replaced || scaled || toned) {
         dome_.encode(tones_);
@@ -270,7 +375,8 @@ void SkyFrame::tell_dome() noexcept {
 
 glm::dvec3 SkyFrame::exact_colour(const glm::dvec3& direction_enu, std::size_t screen) const {
     const Horizontal at = horizontal_of(direction_enu);
-    const glm::dvec3 rgb{light_.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation)};
+    const glm::dvec3 behind{light_.rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation)};
+    const glm::dvec3 rgb = through_clouds(behind, direction_enu);
     const bool sea = sea_rows_ > 0 && at.elevation_rad < light_.horizon_elevation_rad;
     return sea ? waves_colour(direction_enu, rgb, screen) : shaders64::shown(rgb, tones_[screen]);
 }

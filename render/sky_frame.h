@@ -2,9 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "render/cloud/lightning.h"
+#include "render/cloud_frame.h"
+#include "render/clouds.h"
 #include "render/display.h"
 #include "render/dome.h"
 #include "render/eye/adaptation.h"
@@ -15,6 +20,7 @@
 #include "render/scene.h"
 #include "render/sea_mesh.h"
 #include "render/sky_light.h"
+#include "render/sky_veil.h"
 #include "render/target.h"
 
 namespace skyig::render {
@@ -42,6 +48,9 @@ class SkyFrame {
     SkyFrame(const DisplaySettings& display, const Quality& quality, std::span<const Screen> screens = {},
              Target target = Target::kDisplay);
 
+    /// From the next frame on.
+    void draw_clouds(Clouds clouds) noexcept { made_clouds_ = std::move(clouds); }
+
     /// \param pixel_rad  angle of the finest pixel of the rig: edges are softened over it \param
     /// smallest_pixel_sr  of the rig, where stars show best. Allocates nothing in steady state. The first
     /// call builds all tables and may throw std::bad_alloc; later ones do not throw.
@@ -52,6 +61,8 @@ class SkyFrame {
     // All of this is the prepared frame's.
     [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
     [[nodiscard]] const SkyLight& light() const noexcept { return light_; }
+    /// Lightning that shines, for whoever draws the clouds.
+    [[nodiscard]] const cloud::Flashes& flashes() const noexcept { return flashes_; }
     /// What turns light into the target's values.
     [[nodiscard]] const shaders64::ToneParameters& tone(std::size_t screen = 0) const noexcept {
         return tones_[screen];
@@ -69,6 +80,17 @@ class SkyFrame {
     }
     [[nodiscard]] const Glare& moon_glare(std::size_t screen = 0) const noexcept {
         return moon_glares_[screen];
+    }
+    [[nodiscard]] const CloudFrame& clouds() const noexcept { return clouds_; }
+    /// What is seen of light that stands behind the clouds, in a direction that a view sees. The same without
+    /// clouds.
+    [[nodiscard]] glm::dvec3 through_clouds(const glm::dvec3& behind_cd_m2,
+                                            const glm::dvec3& direction_enu) const noexcept;
+    /// The air between the eye and things: kept from the first call on, or from the first clouds.
+    const DeferredAir& air_between(const Scene& scene);
+    /// As air_between() left it, if it was called.
+    [[nodiscard]] const DeferredAir* air_between() const noexcept {
+        return air_between_ ? &*air_between_ : nullptr;
     }
     [[nodiscard]] Dome& dome() noexcept { return dome_; }
     [[nodiscard]] const Dome& dome() const noexcept { return dome_; }
@@ -101,15 +123,22 @@ class SkyFrame {
     [[nodiscard]] glm::dvec3 exact_dome_colour(const glm::dvec3& direction_enu, std::size_t screen = 0) const;
 
   private:
+    void take_weather(const Scene& scene) noexcept;
     void refresh_milky_way(const Scene& scene);
+    void refresh_clouds(const Scene& scene, double pixel_rad);
+    void tone_clouds() noexcept;
     void adapt(const Scene& scene);
     void tone_screens(const Scene& scene, double smallest_pixel_sr);
     [[nodiscard]] double luminance_cd_m2(double elevation_rad, double azimuth_rad) const;
+    [[nodiscard]] double clouded_luminance_cd_m2(double elevation_rad, double azimuth_rad) const;
+    [[nodiscard]] double probed_luminance_cd_m2(double elevation_rad, double azimuth_rad,
+                                                std::size_t probe) const;
     /// What the veils of a source were laid for.
     struct VeilMade {
         GlareSource source;
         std::uint64_t tables = 0;
         double adaptation_cd_m2 = 0.0;
+        std::uint64_t fog = 0;
     };
     void dazzle(const Scene& scene);
     void veil(const GlareSource& source, std::vector<Glare>& glares, VeilMade& made);
@@ -123,6 +152,7 @@ class SkyFrame {
     Quality quality_;
     Target target_;
     LightTables tables_;
+    SkyVeil veil_;
     eye::Adaptation adaptation_;
     std::vector<Glare> sun_glares_;  // one a screen
     std::vector<Glare> moon_glares_;
@@ -131,12 +161,18 @@ class SkyFrame {
     DomeBend bend_;
     Dome dome_;
     SeaMesh sea_;
+    Clouds made_clouds_;
+    cloud::CloudLight cloud_light_;
+    std::optional<DeferredAir> air_between_;
+    bool air_between_fresh_ = false;
+    CloudFrame clouds_;
     MilkyWay milky_way_;
     bool milky_way_shown_ = false;
     double milky_way_codes_ = 0.0;
 
     Plan plan_;
     SkyLight light_;
+    cloud::Flashes flashes_;
     std::array<double, eye::kProbeCount> probes_cd_m2_{};
     std::vector<shaders64::ToneParameters> display_tones_;
     std::vector<shaders64::ToneParameters> tones_;  // of the target
@@ -164,6 +200,9 @@ class SkyFrame {
         glm::vec3 moon_scale{-1.0F};
         double moon_from_sun_rad = 0.0;
         float night_share = 0.0F;
+        std::uint64_t veil = 0;
+        float flash_cd_m2 = 0.0F;
+        double film = 0.0;
     } shaded_;
 };
 

@@ -2,8 +2,11 @@
 // and discs, the adaptation and the tests all ask.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 
+#include "render/cloud/lightning.h"
+#include "render/fog/veil.h"
 #include "render/geometry.h"
 #include "render/night/milky_way_map.h"
 #include "render/night/night_sky.h"
@@ -15,6 +18,17 @@
 
 namespace skyig::render {
 
+/// What clouds leave of light as a mean over the area (CloudShade): of the air round the eye and of the
+/// ground. Each direction lies between: near the horizon it is seen through air of the eye's height, higher
+/// up through that above all clouds, lower down on the ground.
+struct CloudedAir {
+    float at_eye = 1.0F;
+    float at_ground = 1.0F;
+
+    /// Exactly 1 without clouds; continuous.
+    [[nodiscard]] float share(double above_horizon_rad) const noexcept;
+};
+
 /// A light source and the table of the air and ground it lights.
 struct LitAir {
     const sky::SkyRadiance* view = nullptr;  ///< null: this source lights nothing
@@ -23,6 +37,9 @@ struct LitAir {
     glm::vec3 scale_xyz{0.0F};
     /// What the sea reflects of it and of its sky; null over land. It lags as `view` does.
     const sky::SeaView* sea = nullptr;
+    CloudedAir clouded;
+    /// Of the beam that glitters on the ground, what clouds leave.
+    float beam_share = 1.0F;
 };
 
 /// What the Milky Way adds to even starlight.
@@ -71,7 +88,20 @@ struct SkyLight {
     /// The dark sky, null where it does not count, and how much of it is drawn.
     const night::NightSky* night = nullptr;
     float night_share = 1.0F;
+    CloudedAir night_clouded;
     LitBelt milky_way;
+    /// What fog and its like lay before all of this; null where there is none.
+    const fog::Veil* veil = nullptr;
+    /// Rises when the veil shows otherwise.
+    std::uint64_t veil_revision = 0;
+    /// Before a veil far away.
+    shaders64::VeilAir front_air{};
+    /// What lightning adds to everything.
+    cloud::FlashLight flash;
+    /// Part of the land under a film of water that mirrors the sky, 0..1.
+    double film = 0.0;
+    /// Of the air between the eye and what flashes and films do to the ground.
+    double near_extinction_per_m = 0.0;
 
     /// Elevation of the straight ray that stands in the tables for the curved one seen at `elevation_rad`: it
     /// comes as near to the ground. The same above the level; on the horizon the straight horizon (0.2 deg
@@ -90,6 +120,10 @@ struct SkyLight {
     [[nodiscard]] glm::vec3 smooth_rgb_cd_m2(double elevation_rad, double azimuth_rad,
                                              Side side) const noexcept;
 
+    /// Part of the light of a disc or star that the veil lets through. \param straight_rad  as
+    /// straight_elevation_rad() has it
+    [[nodiscard]] double veil_passes(double straight_rad) const noexcept;
+
     /// Factors of the belt's luminance outside the air that make its light at the eye, without
     /// belt_above_horizon(). Linear Rec.709.
     [[nodiscard]] glm::vec3 belt_passes(double elevation_rad) const noexcept;
@@ -98,6 +132,15 @@ struct SkyLight {
     [[nodiscard]] double belt_above_horizon(double elevation_rad) const noexcept;
 
     static constexpr double kBeltEdge = 0.01;
+
+  private:
+    [[nodiscard]] glm::vec3 clear_rgb_cd_m2(double straight_rad, double elevation_rad, double azimuth_rad,
+                                            bool ground) const noexcept;
+    [[nodiscard]] shaders64::VeilSum veil_sum(double straight_rad, double azimuth_rad,
+                                              bool ground) const noexcept;
+    [[nodiscard]] glm::vec3 veiled(const glm::vec3& clear_cd_m2, double straight_rad, double azimuth_rad,
+                                   bool ground) const noexcept;
+    [[nodiscard]] double end_m(double straight_rad, bool ground) const noexcept;
 };
 
 }  // namespace skyig::render

@@ -120,6 +120,7 @@ StarField::Made StarField::made_of(const Scene& scene, const SkyFrame& frame) no
     Made made{.valid = true,
               .tables = frame.tables().revision(),
               .air_in_use = frame.tables().air_in_use(),
+              .veil = light.veil_revision,
               .sun_scale = light.sun.scale_xyz,
               .moon_scale = light.moon.scale_xyz,
               .height_m = scene.eye.height_m,
@@ -139,6 +140,7 @@ StarField::Made StarField::made_of(const Scene& scene, const SkyFrame& frame) no
 bool StarField::light_is_stale(const Made& now, double pixel_rad) const noexcept {
     const Made& held = made_;
     return !held.valid || now.tables != held.tables || now.air_in_use != held.air_in_use ||
+           now.veil != held.veil ||
            moved(now.sun_scale, held.sun_scale) || moved(now.moon_scale, held.moon_scale) ||
            sky::height_is_stale(now.height_m, held.height_m) ||
            std::abs(now.horizon_lift_rad - held.horizon_lift_rad) > kStep_px * pixel_rad;
@@ -173,8 +175,9 @@ void StarField::tabulate_air(const SkyFrame& frame, double eye_height_m) {
         const double seen_rad = light.refraction.apparent_from_true(elevation_rad);
         const double level = std::max(std::cos(elevation_rad), 1e-4);
         const double rms = night::scintillation_rms(night::air_mass(seen_rad), eye_height_m);
-        air_[i] = {glm::vec3{frame.air().transmittance_rgb(light.eye_height_m,
-                                                           light.straight_elevation_rad(seen_rad))},
+        const double straight_rad = light.straight_elevation_rad(seen_rad);
+        air_[i] = {glm::vec3{light.veil_passes(straight_rad) *
+                             frame.air().transmittance_rgb(light.eye_height_m, straight_rad)},
                    static_cast<float>((seen_rad - elevation_rad) / level), static_cast<float>(rms)};
     }
 }

@@ -84,6 +84,7 @@ class StarField {
         bool valid = false;
         std::uint64_t tables = 0;
         std::uint64_t air_in_use = 0;
+        std::uint64_t veil = 0;
         glm::vec3 sun_scale{0.0F};
         glm::vec3 moon_scale{0.0F};
         double height_m = 0.0;

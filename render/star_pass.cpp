@@ -8,6 +8,9 @@ StarPass::StarPass()
     : program_("night/star.vert", "night/star.frag"),
       mesh_({3, 3, 3}, field_.capacity()),
       tone_(program_, true),
+      fetch_(program_),
+      enu_(program_.uniform("u_enu_from_update")),
+      clouds_shown_(program_.uniform("u_clouds_shown")),
       view_(program_.uniform("u_view_from_enu")),
       size_(program_.uniform("u_size_px")),
       plane_origin_(program_.uniform("u_plane_origin")),
@@ -20,8 +23,8 @@ void StarPass::prepare(const Scene& scene, const SkyFrame& frame, double pixel_r
     mesh_.update({reinterpret_cast<const float*>(stars.data()), stars.size_bytes() / sizeof(float)});
 }
 
-void StarPass::draw(const Channel& channel, const ChannelView& view,
-                    const shaders32::ToneParameters& tone) const {
+void StarPass::draw(const Channel& channel, const ChannelView& view, const shaders32::ToneParameters& tone,
+                    const CloudPass* clouds) const {
     const ImagePlane p = image_plane(view.frustum);
     const glm::dvec2 step{(p.right - p.left) / channel.width_px, (p.top - p.bottom) / channel.height_px};
     const double peak_per_sr =
@@ -29,6 +32,11 @@ void StarPass::draw(const Channel& channel, const ChannelView& view,
     program_.use();
     tone_.set(program_, tone);
     program_.set(view_, glm::mat4{glm::dmat4{view.view_from_enu * field_.enu_from_update()}});
+    program_.set(clouds_shown_, clouds != nullptr ? 1.0F : 0.0F);
+    if (clouds != nullptr) {
+        fetch_.set(program_, clouds->map_size());
+        program_.set(enu_, glm::mat4{glm::dmat4{field_.enu_from_update()}});
+    }
     program_.set(size_, glm::vec2{channel.width_px, channel.height_px});
     program_.set(plane_origin_, glm::vec2{glm::dvec2{p.left, p.bottom}});
     program_.set(plane_step_, glm::vec2{step});

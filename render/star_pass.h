@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "render/channel.h"
+#include "render/cloud_pass.h"
 #include "render/discs.h"
 #include "render/gl/mesh.h"
 #include "render/gl/program.h"
@@ -22,7 +23,9 @@ class StarPass {
     /// Once a frame whose plan needs the stars.
     void prepare(const Scene& scene, const SkyFrame& frame, double pixel_rad);
     /// Blends by adding, into the framebuffer and the viewport that are bound: the channel's, whole.
-    void draw(const Channel& channel, const ChannelView& view, const shaders32::ToneParameters& tone) const;
+    /// \param clouds  the map that is bound; null: there are none
+    void draw(const Channel& channel, const ChannelView& view, const shaders32::ToneParameters& tone,
+              const CloudPass* clouds) const;
 
     [[nodiscard]] std::size_t count() const noexcept { return field_.stars().size(); }
 
@@ -31,7 +34,8 @@ class StarPass {
     gl::Program program_;
     gl::Mesh mesh_;
     ToneUniforms tone_;
-    int view_, size_, plane_origin_, plane_step_, peak_gain_;
+    CloudFetch fetch_;
+    int enu_, clouds_shown_, view_, size_, plane_origin_, plane_step_, peak_gain_;
 };
 
 }  // namespace skyig::render

@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "render/output/jpeg.h"
 #include "render/output/png.h"
 #include "server/clock.h"
 #include "server/endpoint_format.h"
@@ -27,6 +28,7 @@
 #include "server/replay.h"
 #include "server/status/status_port.h"
 #include "server/stop_signal.h"
+#include "server/window_layouts.h"
 
 namespace skyig::server {
 
@@ -49,6 +51,14 @@ std::unique_ptr<ImageWriter> open_images(const DaemonOptions& options, const con
                                        std::span<const std::byte> rgba, std::string& why) {
             return render::output::write_png(path, channel.width_px, channel.height_px, rgba, why, gamma);
         });
+}
+
+std::unique_ptr<Preview> open_preview(const config::Config& config) {
+    if (!config.preview.enabled || !config.status.enabled) return nullptr;
+    return std::make_unique<Preview>(
+        render_channels(config),
+        Preview::Settings{config.preview.rate_hz, config.preview.width_px, config.preview.quality},
+        &render::output::encode_jpeg);
 }
 
 std::string_view bus_text(protocol::transport::CanState state) {
@@ -220,7 +230,7 @@ status::Facts status_facts(const FrameLoop& loop, const Outside& outside, const 
 /// Null where none is wanted, or none can be had that was only the default.
 std::unique_ptr<status::StatusPort> open_status(const config::Status& settings, status::Facts facts,
                                                 status::SnapshotExchange& exchange, const Outside& outside,
-                                                const Clock& clock, Log& log) {
+                                                const Clock& clock, Preview* preview, Log& log) {
     // A replay is one of many, and its log is compared.
     if (!settings.enabled || (outside.replay() != nullptr && !settings.listen_given)) return nullptr;
     const auto edges = [&outside] {
@@ -232,7 +242,7 @@ std::unique_ptr<status::StatusPort> open_status(const config::Status& settings, 
         }
         return told;
     };
-    auto port = status::StatusPort::open(settings, std::move(facts), exchange, clock, edges);
+    auto port = status::StatusPort::open(settings, std::move(facts), exchange, clock, edges, preview);
     if (!port) {
         if (settings.listen_given) throw std::runtime_error(fmt::format("status: {}", port.error()));
         log.warning("no status port: {}", port.error());
@@ -247,6 +257,15 @@ void write_report(const std::string& path, const RunReport& report) {
     file << to_json(report);
     file.close();
     if (!file) throw std::runtime_error(fmt::format("{}: the report cannot be written", path));
+}
+
+std::unique_ptr<GlPainter> make_painter(const DaemonOptions& options, const config::Config& config) {
+    if (options.headless || config.output.kind != config::OutputKind::kWindow)
+        return std::make_unique<GlPainter>(render_channels(config), display_settings(config),
+                                           quality(config));
+    return std::make_unique<GlPainter>(
+        std::make_unique<render::output::Desktop>(window_layouts(config), config.output.vsync),
+        render_channels(config), display_settings(config), quality(config));
 }
 
 void run(const DaemonOptions& options, const config::Config& config,
@@ -270,7 +289,8 @@ void run(const DaemonOptions& options, const config::Config& config,
     const std::unique_ptr<FrameTable> table =
         options.times_path.empty() ? nullptr
                                    : std::make_unique<FrameTable>(options.times_path, config.channels);
-    GlPainter painter(render_channels(config), display_settings(config), quality(config));
+    const std::unique_ptr<GlPainter> made = make_painter(options, config);
+    GlPainter& painter = *made;
     say_banner(log, config, painter, outside.heard(options, config));
     if (const std::string path = record_path(options, config, clock); !path.empty()) {
         outside.record(path, config,
@@ -280,13 +300,14 @@ void run(const DaemonOptions& options, const config::Config& config,
     }
 
     const auto exchange = std::make_unique<status::SnapshotExchange>();
+    const std::unique_ptr<Preview> preview = open_preview(config);
     FrameLoop loop(config,
                    {clock, log, outside.pace(), outside.wire(), world, painter, images.get(), hashes.get(),
-                    table.get(), exchange.get()},
+                    table.get(), exchange.get(), preview.get()},
                    options.frames, options.out_every, std::move(orientation));
     log.info("ephemeris {}", loop.report().ephemeris_text());
-    const auto status_port =
-        open_status(config.status, status_facts(loop, outside, clock), *exchange, outside, clock, log);
+    const auto status_port = open_status(config.status, status_facts(loop, outside, clock), *exchange,
+                                         outside, clock, preview.get(), log);
     loop.warm_up();
     running = &loop;
     const std::int64_t cpu_before_ns = process_cpu_ns();

@@ -13,6 +13,8 @@ struct DaemonOptions {
     std::string config_path;
     /// Only check the settings.
     bool check = false;
+    /// No windows, whatever the settings say.
+    bool headless = false;
     /// Frames to draw before a clean end; 0 = until a signal comes.
     std::uint64_t frames = 0;
     /// Directory for the channels' images; empty = none.

@@ -42,7 +42,8 @@ FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, 
       answers_(config.host),
       inbox_(config, parts.world, parts.log),
       scenes_(ephemeris_model(config), std::move(orientation), sky_settings(config.sky),
-              ground_settings(config.ground), night_settings(config.night)),
+              ground_settings(config.ground), night_settings(config.night),
+              weather::weather_settings(config.weather)),
       times_(config.channels.size()) {}
 
 void FrameLoop::warm_up() {
@@ -77,8 +78,16 @@ bool FrameLoop::run_frame() {
     times.input_ns = stopwatch.lap_ns();
     times_.input().add(times.input_ns);
     draw(scene, stopwatch, times);
+    const bool wanted = parts_.painter.present();
+    if (!wanted) parts_.log.notice("a window was closed: the daemon ends");
     if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images();
     if (parts_.hashes != nullptr) hash_images();
+    if (parts_.preview != nullptr) {
+        parts_.preview->offer(parts_.clock.monotonic_ns(),
+                              [this](std::size_t channel, std::span<std::byte> rgba) {
+                                  parts_.painter.read_back(channel, rgba);
+                              });
+    }
 
     times.output_ns = stopwatch.lap_ns();
     last_end_ns_ = start_ns + times.duration_ns();
@@ -90,7 +99,7 @@ bool FrameLoop::run_frame() {
     }
     watch(slot);
     if (parts_.status != nullptr) publish_status(scene);
-    return true;
+    return wanted;
 }
 
 void FrameLoop::answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns) {
@@ -166,6 +175,13 @@ void FrameLoop::tell_late_frames() {
 
 void FrameLoop::tell_what_is_drawn_otherwise() {
     tell_date();
+    if (scenes_.weather_left_out() > 0) {
+        parts_.log.limited(
+            "weather left out", kRepeatAfter_s, Severity::kWarning,
+            "{} layers of weather are not drawn: there is room for the nearest {} clouds and {} "
+            "veils",
+            scenes_.weather_left_out(), render::Weather::kMaxClouds, render::Weather::kMaxObscurants);
+    }
     if (scenes_.eye_spread_m() > config::kMaxEyeSpread_m) {
         parts_.log.limited(
             "eye spread", kRepeatAfter_s, Severity::kWarning,

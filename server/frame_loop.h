@@ -16,6 +16,7 @@
 #include "server/log.h"
 #include "server/pace.h"
 #include "server/painter.h"
+#include "server/preview.h"
 #include "server/report.h"
 #include "server/scene_builder.h"
 #include "server/status/snapshot_exchange.h"
@@ -40,6 +41,8 @@ struct FrameLoopParts {
     FrameTable* table = nullptr;
     /// Null: nobody is told how frames go.
     status::SnapshotExchange* status = nullptr;
+    /// Null: nobody asks for small pictures.
+    Preview* preview = nullptr;
 };
 
 /// Neither a host nor a disk can hold it up. A frame allocates nothing in steady state.
@@ -58,7 +61,8 @@ class FrameLoop {
     /// Runs frames until the limit is reached, the pace ends or `stop` says so (asked once a frame).
     void run(const std::function<bool()>& stop);
 
-    /// Waits for the next frame's start and runs it. \return false when there is none any more
+    /// Waits for the next frame's start and runs it. \return false when there is none any more, or nobody
+    /// wants to see another
     bool run_frame();
 
     /// Of the frame at hand or the last.

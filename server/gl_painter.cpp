@@ -8,8 +8,17 @@ namespace skyig::server {
 // A debug context costs nothing that can be measured here, and every GL error is then counted.
 GlPainter::GlPainter(std::vector<render::Channel> channels, const render::DisplaySettings& display,
                      const render::Quality& quality, render::Target target)
-    : context_(render::gl::HeadlessContext::create(true)),
+    : headless_(std::make_unique<render::gl::HeadlessContext>(render::gl::HeadlessContext::create(true))),
       renderer_(std::move(channels), display, quality, target) {}
+
+GlPainter::GlPainter(std::unique_ptr<render::output::Desktop> desktop, std::vector<render::Channel> channels,
+                     const render::DisplaySettings& display, const render::Quality& quality)
+    : desktop_(std::move(desktop)), renderer_(std::move(channels), display, quality) {
+    for (std::size_t i = 0; i < renderer_.channels().size(); ++i) {
+        const render::Channel& channel = renderer_.channels()[i];
+        shown_.push_back({renderer_.texture(i), channel.width_px, channel.height_px});
+    }
+}
 
 void GlPainter::prepare(const render::Scene& scene) {
     const render::FrameReport& report = renderer_.prepare(scene);
@@ -22,12 +31,20 @@ void GlPainter::draw(std::size_t channel) {
     renderer_.draw(channel);
 }
 
+bool GlPainter::present() {
+    return !desktop_ || desktop_->present(shown_);
+}
+
 void GlPainter::read_back(std::size_t channel, std::span<std::byte> rgba) {
     renderer_.read_back(channel, rgba);
 }
 
 void GlPainter::read_luminance(std::size_t channel, std::span<float> rgb_cd_m2) {
     renderer_.read_luminance(channel, rgb_cd_m2);
+}
+
+std::string GlPainter::description() const {
+    return desktop_ ? desktop_->description() : headless_->description();
 }
 
 std::size_t GlPainter::passes(std::span<status::PassState> rows) const {

@@ -1,10 +1,13 @@
-// The Painter of the programs: the renderer on an OpenGL context without a window.
+// The Painter of the programs: the renderer on an OpenGL context, without a window or behind some.
 #pragma once
 
 #include <array>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "render/gl/headless_context.h"
+#include "render/output/desktop.h"
 #include "render/renderer.h"
 #include "server/painter.h"
 
@@ -17,20 +20,27 @@ class GlPainter final : public Painter {
     /// channels
     GlPainter(std::vector<render::Channel> channels, const render::DisplaySettings& display,
               const render::Quality& quality, render::Target target = render::Target::kDisplay);
+    /// The same behind a desktop's windows.
+    GlPainter(std::unique_ptr<render::output::Desktop> desktop, std::vector<render::Channel> channels,
+              const render::DisplaySettings& display, const render::Quality& quality);
 
     void prepare(const render::Scene& scene) override;
     void draw(std::size_t channel) override;
+    bool present() override;
     void read_back(std::size_t channel, std::span<std::byte> rgba) override;
     /// Of a target of luminance. \see render::Renderer::read_luminance()
     void read_luminance(std::size_t channel, std::span<float> rgb_cd_m2);
     [[nodiscard]] std::uint64_t gl_errors() const override { return gl_errors_; }
     [[nodiscard]] double adaptation_cd_m2() const override { return adaptation_cd_m2_; }
     [[nodiscard]] std::size_t passes(std::span<status::PassState> rows) const override;
-    [[nodiscard]] std::string description() const override { return context_.description(); }
+    [[nodiscard]] std::string description() const override;
 
   private:
-    render::gl::HeadlessContext context_;
+    // One of the two; the renderer's objects live in it.
+    std::unique_ptr<render::gl::HeadlessContext> headless_;
+    std::unique_ptr<render::output::Desktop> desktop_;
     render::Renderer renderer_;
+    std::vector<render::output::Shown> shown_;
     std::array<render::PlannedPass, render::kPassCount> passes_{};
     std::uint64_t gl_errors_ = 0;
     double adaptation_cd_m2_ = 0.0;

@@ -12,6 +12,7 @@
 #include "server/bus_input.h"
 #include "server/daemon.h"
 #include "server/from_config.h"
+#include "server/start_weather/start_weather.h"
 
 namespace {
 
@@ -26,7 +27,7 @@ void declare(CLI::App& app, DaemonOptions& options) {
         ->required()
         ->type_name("FILE");
     app.add_flag("--check", options.check, "check the settings, say all that is wrong, and end");
-    app.add_flag("--headless")->description("no windows, whatever the settings say");
+    app.add_flag("--headless", options.headless, "no windows, whatever the settings say");
     app.add_option("--frames", options.frames, "end after N frames (0: run until SIGINT or SIGTERM)")
         // As signed numbers: a negative one would wrap to a count without end.
         ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000'000}))
@@ -95,6 +96,11 @@ int run(int argc, char** argv) {
     }
     if (const std::string fault = skyig::server::identifier_fault(*loaded.config); !fault.empty()) {
         fmt::print(stderr, "{}: {}\n", options->config_path, fault);
+        return kWrongUsage;
+    }
+    if (const std::string fault = skyig::server::metar_fault(*loaded.config, options->config_path);
+        !fault.empty()) {
+        fmt::print(stderr, "{}\n", fault);
         return kWrongUsage;
     }
     if (options->check) {

@@ -24,6 +24,8 @@ class Painter {
     virtual void prepare(const render::Scene& scene) = 0;
     /// Draws one channel of the prepared frame; its pixels are finished on return.
     virtual void draw(std::size_t channel) = 0;
+    /// The drawn channels go where people see them. \return false once nobody wants to see them any more
+    virtual bool present() { return true; }
     /// RGBA, top row first, width * height * 4 bytes.
     virtual void read_back(std::size_t channel, std::span<std::byte> rgba) = 0;
 

@@ -162,11 +162,13 @@ render::Scene SceneBuilder::build(const world::World& world, std::uint64_t frame
     const ephemeris::Geodetic eye{scene.eye.latitude_deg, scene.eye.longitude_deg, scene.eye.height_m};
     light(clockwork_.state(instant_, eye), world.celestial(), scene);
     scene.air = air_of(world.air());
-    const world::RegionsAt regions = regions_at(world, scene.eye);
-    scene.ground = ground_of(ground_, world, regions);
-    scene.sea = sea_of(world, regions);
     scene.sky = sky_;
     scene.night = night_;
+    weather_.build(world, scene);
+    const world::RegionsAt regions = regions_at(world, scene.eye);
+    scene.ground = ground_of(ground_, world, regions);
+    scene.ground.wet = weather_.wet();
+    scene.sea = sea_of(world, regions);
     if (sky_.model == render::SkyModel::kWindlight && sky_.windlight.places_sun)
         scene.sun.direction_enu = render::placed_sun_enu(sky_.windlight);
     return scene;

@@ -8,6 +8,7 @@
 #include "render/scene.h"
 #include "server/ephemeris/earth_orientation.h"
 #include "server/ephemeris/sky_clockwork.h"
+#include "server/weather/weather_builder.h"
 #include "server/world/world.h"
 
 namespace skyig::server {
@@ -22,12 +23,12 @@ struct SkyAngles {
     double moon_lit_fraction = 0.0;
 };
 
-/// Keeps what the ephemeris has computed for the frames to come; the scenes themselves depend on the world
-/// alone.
+/// Keeps what the ephemeris has computed for the frames to come, and the weather that is on its way to what
+/// is told; all else of a scene depends on the world alone.
 ///
 /// The eye is the ownship's position plus the mean of all channels' offsets, turned by the attitude; the
 /// scene's axes are east-north-up there. A view's axes: ownship, then its group, then the view itself, each
-/// yaw, pitch, roll. Allocates nothing. Cost: under 5 microseconds while time runs on.
+/// yaw, pitch, roll. build() allocates nothing. Cost: under 10 microseconds while time runs on.
 class SceneBuilder {
   public:
     /// \param model  which series place the bodies
@@ -35,14 +36,17 @@ class SceneBuilder {
     /// \param ground  below the air; its wind is the world's, its snow too once a host tells of some
     /// \param sky  what draws the day sky; where it says the Sun's place, the Sun stands there
     /// \param night  what shines in the dark one
+    /// \param weather  how layers are drawn and how they change
     explicit SceneBuilder(ephemeris::Model model = ephemeris::Model::kSeries,
                           ephemeris::EarthOrientation orientation = {}, const render::SkySettings& sky = {},
-                          const render::Ground& ground = {}, const render::NightSettings& night = {}) noexcept
+                          const render::Ground& ground = {}, const render::NightSettings& night = {},
+                          const weather::WeatherSettings& weather = {})
         : orientation_(std::move(orientation)),
           sky_(sky),
           ground_(ground),
           night_(night),
-          clockwork_(model) {}
+          clockwork_(model),
+          weather_(weather) {}
 
     [[nodiscard]] render::Scene build(const world::World& world, std::uint64_t frame_number);
 
@@ -53,6 +57,8 @@ class SceneBuilder {
     [[nodiscard]] bool date_clamped() const noexcept { return instant_.clamped; }
     /// The last scene's date lies beyond the announced leap seconds.
     [[nodiscard]] bool leap_seconds_assumed() const noexcept { return instant_.leap_seconds_assumed; }
+    /// Layers of weather for which the last scene had no place.
+    [[nodiscard]] std::size_t weather_left_out() const noexcept { return weather_.left_out(); }
     [[nodiscard]] const ephemeris::EarthOrientation& orientation() const noexcept { return orientation_; }
 
   private:
@@ -65,6 +71,7 @@ class SceneBuilder {
     render::NightSettings night_;
     ephemeris::OffsetsOfDay offsets_;
     ephemeris::SkyClockwork clockwork_;
+    weather::WeatherBuilder weather_;
     /// Of the frame at hand: east-north-up at the ownship from that at the eye, row by row as the library
     /// fills it.
     std::vector<double> ownship_from_eye_ = std::vector<double>(9);

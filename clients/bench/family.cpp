@@ -10,8 +10,10 @@
 #include <stdexcept>
 #include <thread>
 
+#include "clients/bench/cloud_family.h"
 #include "clients/bench/ephemeris_family.h"
 #include "clients/bench/eye_family.h"
+#include "clients/bench/fog_family.h"
 #include "clients/bench/night_family.h"
 #include "clients/bench/sky_family.h"
 #include "clients/bench/wire_family.h"
@@ -20,10 +22,12 @@ namespace skyig::clients::bench {
 
 namespace {
 
-constexpr std::array<Family, 5> kFamilies{{
+constexpr std::array<Family, 7> kFamilies{{
+    {"cloud", "light in and from cloud", measure_cloud_errors, cloud_contenders, cloud_floor},
     {"ephemeris", "places of Sun, Moon and planets", measure_ephemeris_errors, ephemeris_contenders,
      ephemeris_floor},
     {"eye", "from luminance to display codes", measure_eye_errors, eye_contenders, eye_floor},
+    {"fog", "fog, haze and their like; runway visual range", measure_fog_errors, fog_contenders, fog_floor},
     {"night", "light of the night sky, source by source", measure_night_errors, night_contenders,
      night_floor},
     {"sky", "light of the day sky", measure_sky_errors, sky_contenders, sky_floor},

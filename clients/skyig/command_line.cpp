@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "clients/body_name.h"
+#include "clients/skyig/cloud_command.h"
 #include "clients/skyig/decode_command.h"
 #include "clients/skyig/ephem/almanac.h"
 #include "clients/skyig/ephem/star_name.h"
 #include "clients/skyig/metar_command.h"
 #include "clients/skyig/options.h"
+#include "clients/skyig/rvr_command.h"
 #include "clients/skyig/sky_command.h"
 #include "clients/skyig/status/http_get.h"
 #include "clients/skyig/still/still_command.h"
@@ -26,9 +28,10 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 13> kVerbs{"host",   "shot",  "plan",   "bench",  "ephem",
-                                                  "decode", "metar", "replay", "record", "sky",
-                                                  "status", "top",   "tone"};
+constexpr std::array<std::string_view, 16> kVerbs{"host",   "shot",  "plan",   "channels", "bench",
+                                                  "ephem",  "cloud", "decode", "metar",    "replay",
+                                                  "record", "sky",   "status", "top",      "tone",
+                                                  "rvr"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -101,6 +104,11 @@ void add_shot(CLI::App& app, ShotOptions& options) {
 void add_plan(CLI::App& app, PlanOptions& options) {
     add_still(app, options.still);
     app.add_flag("--json", options.json, "tell the plan as JSON");
+}
+
+void add_channels(CLI::App& app, ChannelsOptions& options) {
+    app.add_option("--config", options.config_path, "settings of the site")->required()->type_name("FILE");
+    app.add_flag("--json", options.json, "tell it as JSON");
 }
 
 void add_bench(CLI::App& app, BenchOptions& options) {
@@ -331,8 +339,10 @@ struct Verbs {
     HostOptions host;
     ShotOptions shot;
     PlanOptions plan;
+    ChannelsOptions channels;
     BenchOptions bench;
     EphemOptions ephem;
+    CloudOptions cloud;
     DecodeOptions decode;
     MetarOptions metar;
     ReplayOptions replay;
@@ -341,6 +351,7 @@ struct Verbs {
     StatusOptions top;
     SkyOptions sky;
     ToneOptions tone;
+    RvrOptions rvr;
     std::string order = "little";
     std::string horizon = "almanac";
 };
@@ -350,10 +361,13 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
              verbs.host, verbs.order);
     add_shot(*app.add_subcommand("shot", "draw one still without a network"), verbs.shot);
     add_plan(*app.add_subcommand("plan", "which passes a scene needs, how fine, and why"), verbs.plan);
+    add_channels(*app.add_subcommand("channels", "what a site's channels cover, overlap and leave out"),
+                 verbs.channels);
     add_bench(*app.add_subcommand("bench", "measure error and cost of every model of a family"), verbs.bench);
     add_ephem(
         *app.add_subcommand("ephem", "where Sun, Moon, planets and stars stand, and when things happen"),
         verbs.ephem, verbs.horizon);
+    add_cloud(app, verbs.cloud);
     add_decode(app, verbs.decode);
     add_metar(app, verbs.metar);
     add_replay(*app.add_subcommand("replay", "send the datagrams of a capture onto the network again"),
@@ -373,6 +387,7 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
     add_sky(*app.add_subcommand("sky", "luminance and colour of the sky for a table of directions"),
             verbs.sky);
     add_tone(app, verbs.tone);
+    add_rvr(app, verbs.rvr);
 }
 
 void require_one_body(const EphemOptions& options) {
@@ -387,8 +402,10 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     if (app.got_subcommand("host")) invocation.options = verbs.host;
     if (app.got_subcommand("shot")) invocation.options = verbs.shot;
     if (app.got_subcommand("plan")) invocation.options = verbs.plan;
+    if (app.got_subcommand("channels")) invocation.options = verbs.channels;
     if (app.got_subcommand("bench")) invocation.options = verbs.bench;
     if (app.got_subcommand("ephem")) invocation.options = verbs.ephem;
+    if (app.got_subcommand("cloud")) invocation.options = verbs.cloud;
     if (app.got_subcommand("decode")) invocation.options = verbs.decode;
     if (app.got_subcommand("metar")) invocation.options = verbs.metar;
     if (app.got_subcommand("replay")) invocation.options = verbs.replay;
@@ -397,6 +414,7 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     if (app.got_subcommand("top")) invocation.options = verbs.top;
     if (app.got_subcommand("sky")) invocation.options = verbs.sky;
     if (app.got_subcommand("tone")) invocation.options = verbs.tone;
+    if (app.got_subcommand("rvr")) invocation.options = verbs.rvr;
 }
 
 std::string usage_error(const char* what, const char* verb) {

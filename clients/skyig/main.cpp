@@ -5,6 +5,8 @@
 #include <variant>
 
 #include "clients/skyig/bench.h"
+#include "clients/skyig/channels.h"
+#include "clients/skyig/cloud.h"
 #include "clients/skyig/decode.h"
 #include "clients/skyig/ephem.h"
 #include "clients/skyig/host.h"
@@ -13,6 +15,7 @@
 #include "clients/skyig/plan.h"
 #include "clients/skyig/record.h"
 #include "clients/skyig/replay.h"
+#include "clients/skyig/rvr.h"
 #include "clients/skyig/shot.h"
 #include "clients/skyig/sky.h"
 #include "clients/skyig/status.h"
@@ -28,13 +31,17 @@ int run(int argc, char** argv) {
     if (const auto* host = std::get_if<HostOptions>(&invocation.options)) return run_host(*host);
     if (const auto* shot = std::get_if<ShotOptions>(&invocation.options)) return run_shot(*shot);
     if (const auto* plan = std::get_if<PlanOptions>(&invocation.options)) return run_plan(*plan);
+    if (const auto* channels = std::get_if<ChannelsOptions>(&invocation.options))
+        return run_channels(*channels);
     if (const auto* bench = std::get_if<BenchOptions>(&invocation.options)) return run_bench(*bench);
     if (const auto* ephem = std::get_if<EphemOptions>(&invocation.options)) return run_ephem(*ephem);
+    if (const auto* cloud = std::get_if<CloudOptions>(&invocation.options)) return run_cloud(*cloud);
     if (const auto* decode = std::get_if<DecodeOptions>(&invocation.options)) return run_decode(*decode);
     if (const auto* metar = std::get_if<MetarOptions>(&invocation.options)) return run_metar(*metar);
     if (const auto* replay = std::get_if<ReplayOptions>(&invocation.options)) return run_replay(*replay);
     if (const auto* record = std::get_if<RecordOptions>(&invocation.options)) return run_record(*record);
     if (const auto* status = std::get_if<StatusOptions>(&invocation.options)) return run_status(*status);
+    if (const auto* rvr = std::get_if<RvrOptions>(&invocation.options)) return run_rvr(*rvr);
     if (const auto* tone = std::get_if<ToneOptions>(&invocation.options)) return run_tone(*tone);
     if (const auto* sky = std::get_if<SkyOptions>(&invocation.options)) return run_sky(*sky);
     return invocation.exit_status;

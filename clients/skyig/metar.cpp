@@ -11,6 +11,7 @@
 
 #include "clients/skyig/metar/json.h"
 #include "clients/skyig/metar/page.h"
+#include "clients/skyig/metar/state.h"
 #include "protocol/metar/decode.h"
 
 namespace skyig::clients {
@@ -19,13 +20,15 @@ namespace {
 
 class ReportPrinter {
   public:
-    ReportPrinter(bool json, std::ostream& out) : json_(json), out_(out) {}
+    ReportPrinter(const MetarOptions& options, std::ostream& out) : options_(options), out_(out) {}
 
     /// \param text   any number of reports  \param place  "line 2"
     void print(std::string_view text, const std::string& place) {
         while (const auto one = protocol::metar::next_report(text)) {
             const protocol::metar::Report report = protocol::metar::decode(*one);
-            if (json_) {
+            if (options_.state) {
+                out_ << metar::state_json(report, options_.elevation_m) << '\n';
+            } else if (options_.json) {
                 out_ << metar::to_json(report) << '\n';
             } else {
                 out_ << (printed_ ? "\n" : "") << metar::to_text(report);
@@ -43,7 +46,7 @@ class ReportPrinter {
     }
 
   private:
-    bool json_;
+    const MetarOptions& options_;
     std::ostream& out_;
     bool printed_ = false;
     bool good_ = true;
@@ -65,7 +68,7 @@ void print_arguments(const std::vector<std::string>& arguments, ReportPrinter& p
 
 int run_metar(const MetarOptions& options, std::istream& in, std::ostream& out) {
     try {
-        ReportPrinter printer(options.json, out);
+        ReportPrinter printer(options, out);
         if (!options.reports.empty() && options.reports != std::vector<std::string>{"-"}) {
             print_arguments(options.reports, printer);
             return printer.exit_status();

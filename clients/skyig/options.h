@@ -49,6 +49,11 @@ struct StillOptions {
     std::optional<double> pitch_deg;
     std::optional<double> roll_deg;
     std::optional<double> visibility_m;
+    /// Name or path of a preset, or the text of a report, in place of the settings' weather; empty: that.
+    std::string weather_preset;
+    std::string metar;
+    /// That the heights of either count from.
+    std::optional<double> elevation_m;
     /// Of the day sky, in place of the settings' one.
     std::optional<config::SkyModel> sky_model;
     /// Of the one channel without settings.
@@ -68,6 +73,12 @@ struct ShotOptions {
 /// skyig plan: what its picture takes.
 struct PlanOptions {
     StillOptions still;
+    bool json = false;
+};
+
+/// skyig channels: what the settings' channels cover.
+struct ChannelsOptions {
+    std::string config_path;
     bool json = false;
 };
 
@@ -134,6 +145,9 @@ struct MetarOptions {
     /// Reports, or the words of one; none, or "-" alone: lines of standard input.
     std::vector<std::string> reports;
     bool json = false;
+    /// Prints what skyig makes of it instead of what it says.
+    bool state = false;
+    double elevation_m = 0.0;
 };
 
 /// skyig replay: a capture's datagrams onto the network.
@@ -201,6 +215,23 @@ struct SkyOptions {
     std::string out_path;
 };
 
+/// skyig cloud: light of a slab of cloud, for one case or a table of them.
+struct CloudOptions {
+    /// Of render::cloud::kSlabModelNames, already checked.
+    std::string model = "table";
+    /// "-" = standard input; empty = the one case below.
+    std::string cases_path;
+    /// Empty or "-" = standard output.
+    std::string out_path;
+    std::optional<double> optical_depth;
+    double g = 0.85;
+    double albedo = 1.0;
+    double sun_zenith_deg = 0.0;
+    double view_zenith_deg = 0.0;
+    double rel_azimuth_deg = 0.0;
+    bool json = false;
+};
+
 /// skyig tone: luminances through the shader's tone curve.
 struct ToneOptions {
     /// Of render::kToneOperatorNames, already checked.
@@ -219,11 +250,22 @@ struct ToneOptions {
     std::vector<double> luminance_cd_m2;
 };
 
+/// skyig rvr: one of the first three is given.
+struct RvrOptions {
+    std::optional<double> visibility_m;
+    std::optional<double> extinction_per_m;
+    std::optional<double> rvr_m;
+    double intensity_cd = 10e3;
+    double background_cd_m2 = 10e3;
+    double contrast = 0.05;
+    bool json = false;
+};
+
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
-    std::variant<std::monostate, HostOptions, ShotOptions, PlanOptions, BenchOptions, EphemOptions,
-                 DecodeOptions, MetarOptions, ReplayOptions, RecordOptions, SkyOptions, StatusOptions,
-                 ToneOptions>
+    std::variant<std::monostate, HostOptions, ShotOptions, PlanOptions, ChannelsOptions, BenchOptions,
+                 EphemOptions, CloudOptions, DecodeOptions, MetarOptions, ReplayOptions, RecordOptions,
+                 SkyOptions, StatusOptions, ToneOptions, RvrOptions>
         options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)

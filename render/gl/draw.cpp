@@ -21,6 +21,8 @@ void set_blend(Blend blend) {
     glEnable(GL_BLEND);
     if (blend == Blend::kAdd) {
         glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
+    } else if (blend == Blend::kOver) {
+        glBlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
     } else {
         glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     }

@@ -6,6 +6,7 @@ namespace skyig::render::gl {
 enum class Blend {
     kReplace,
     kAdd,       ///< colour is added to what is there
+    kOver,      ///< what is there times alpha, and colour added
     kCoverage,  ///< alpha is the covered part of the pixel
 };
 

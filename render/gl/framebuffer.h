@@ -28,6 +28,8 @@ class Framebuffer {
     /// Width * height * 3 floats, top row first; of an 8-bit picture 0..1. Waits for the pixels.
     void read_rgb32f(std::span<float> top_down);
 
+    /// For who shows the picture elsewhere.
+    [[nodiscard]] unsigned texture() const noexcept { return texture_; }
     [[nodiscard]] int width_px() const noexcept { return width_px_; }
     [[nodiscard]] int height_px() const noexcept { return height_px_; }
 

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "render/gl/context_text.h"
+
 namespace skyig::render::gl {
 
 namespace {
@@ -76,11 +78,7 @@ HeadlessContext& HeadlessContext::operator=(HeadlessContext&& other) noexcept {
 }
 
 std::string HeadlessContext::description() const {
-    const auto text = [](GLenum name) {
-        const auto* value = reinterpret_cast<const char*>(glGetString(name));
-        return std::string(value != nullptr ? value : "?");
-    };
-    return text(GL_VERSION) + ", " + text(GL_RENDERER);
+    return context_text();
 }
 
 }  // namespace skyig::render::gl

@@ -109,6 +109,9 @@ void Program::set(int location, const glm::vec2& v) const {
 void Program::set(int location, const glm::vec3& v) const {
     glProgramUniform3f(id_, location, v.x, v.y, v.z);
 }
+void Program::set(int location, const glm::vec4& v) const {
+    glProgramUniform4f(id_, location, v.x, v.y, v.z, v.w);
+}
 void Program::set(int location, const glm::mat3& m) const {
     glProgramUniformMatrix3fv(id_, location, 1, GL_FALSE, &m[0].x);
 }

@@ -25,6 +25,7 @@ class Program {
     void set(int location, float value) const;
     void set(int location, const glm::vec2& value) const;
     void set(int location, const glm::vec3& value) const;
+    void set(int location, const glm::vec4& value) const;
     void set(int location, const glm::mat3& value) const;
     void set(int location, const glm::mat4& value) const;
 

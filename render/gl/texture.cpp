@@ -76,6 +76,24 @@ void Texture::update(std::span<const float> texels) const {
     if (levels_ > 1) glGenerateTextureMipmap(name_);
 }
 
+void Texture::update_part(int column, int row, int width, int height, std::span<const float> texels) const {
+    if (texels.size() <
+        static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * components(format_))
+        return;
+    const GLenum layout = format_ == TexelFormat::kRgba32F ? GL_RGBA : GL_RED;
+    glTextureSubImage2D(name_, 0, column, row, width, height, layout, GL_FLOAT, texels.data());
+}
+
+void Texture::fill(std::span<const float> texel) const {
+    fill_part(0, 0, width_, height_, texel);
+}
+
+void Texture::fill_part(int column, int row, int width, int height, std::span<const float> texel) const {
+    if (texel.size() < components(format_)) return;
+    const GLenum layout = format_ == TexelFormat::kRgba32F ? GL_RGBA : GL_RED;
+    glClearTexSubImage(name_, 0, column, row, 0, width, height, 1, layout, GL_FLOAT, texel.data());
+}
+
 void bind_texture(int unit, unsigned texture) {
     glBindTextureUnit(static_cast<GLuint>(unit), texture);
 }

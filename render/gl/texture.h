@@ -23,6 +23,11 @@ class Texture {
 
     /// All texels: columns, then rows from the lowest, then layers. Fewer than that change nothing.
     void update(std::span<const float> texels) const;
+    /// A rectangle of a two-dimensional one without coarser levels, its lowest row first.
+    void update_part(int column, int row, int width, int height, std::span<const float> texels) const;
+    /// One texel's value in all of it, or in a rectangle.
+    void fill(std::span<const float> texel) const;
+    void fill_part(int column, int row, int width, int height, std::span<const float> texel) const;
 
     /// GL's name for it.
     [[nodiscard]] unsigned name() const noexcept { return name_; }

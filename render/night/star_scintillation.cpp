@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/mixed_bits.h"
+
 namespace skyig::render::night {
 
 namespace {
@@ -14,14 +16,6 @@ constexpr double kScaleHeight_m = 8e3;
 double part_left_by_a_frame() {
     constexpr double kRatio = kFrame_s / kCorrelation_s;
     return std::sqrt(2.0 * (kRatio - 1.0 + std::exp(-kRatio))) / kRatio;
-}
-
-// SplitMix64 (Steele, Lea and Flood 2014).
-std::uint64_t mixed(std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15U;
-    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-    return x ^ (x >> 31U);
 }
 
 // Sum of four uniform numbers, mean 0 and variance 1: near enough to a Gaussian, and never beyond 3.5.

@@ -36,13 +36,26 @@ double water_albedo(double nm) {
     return std::numbers::pi * (kPerSr[k - 1] + part * (kPerSr[k] - kPerSr[k - 1]));
 }
 
+// Of land under a film of water: what gets in is sent back and forth below its surface (Angstrom 1925, after
+// Lekner and Dorf 1988), whose diffuse reflectance is 0.066 from above and 1 - 0.934 / 1.33^2 from below.
+// What the film mirrors is not in it.
+double wet_albedo(double dry) {
+    constexpr double kEnters = 1.0 - 0.066;
+    constexpr double kHeld = 1.0 - kEnters / (1.33 * 1.33);
+    return kEnters * (1.0 - kHeld) * dry / (1.0 - kHeld * dry);
+}
+
 void lay_land(const Ground& ground, AirModel& model) noexcept {
     const double bare = luminous_albedo(model, spectrum_of(bare_land_albedo));
     const double told = ground.albedo && std::isfinite(*ground.albedo) ? *ground.albedo : bare;
     const double scale = std::clamp(told, 0.0, 1.0) / bare;
     const double snow = std::isfinite(ground.snow) ? std::clamp(ground.snow, 0.0, 1.0) : 0.0;
+    // In steps: land that dries asks for new air sixteen times, not in every frame.
+    const double told_wet = std::isfinite(ground.wet) ? std::clamp(ground.wet, 0.0, 1.0) : 0.0;
+    const double wet = std::round(16.0 * told_wet) / 16.0;
     model.ground_albedo = spectrum_of([&](double nm) {
-        const double land = std::min(scale * bare_land_albedo(nm), 1.0);
+        const double dry = std::min(scale * bare_land_albedo(nm), 1.0);
+        const double land = dry + wet * (wet_albedo(dry) - dry);
         return land + snow * (snow_albedo(nm) - land);
     });
 }

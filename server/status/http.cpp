@@ -92,8 +92,10 @@ std::string_view reason_phrase(int status) noexcept {
 }  // namespace
 
 HttpAnswer line_answer(int status, std::string_view line) {
-    return {status, "text/plain; charset=utf-8",
-            std::make_shared<const std::string>(fmt::format("{}\n", line))};
+    HttpAnswer answer;
+    answer.status = status;
+    answer.body = std::make_shared<const std::string>(fmt::format("{}\n", line));
+    return answer;
 }
 
 Head read_head(std::string_view bytes) noexcept {
@@ -120,11 +122,15 @@ bool is_local_name(std::string_view host) noexcept {
 }
 
 std::string answer_head(const HttpAnswer& answer) {
+    // What has no end has no length.
+    const std::string length =
+        answer.endless ? std::string()
+                       : fmt::format("Content-Length: {}\r\n", answer.body ? answer.body->size() : 0);
     return fmt::format(
-        "HTTP/1.1 {} {}\r\nContent-Type: {}\r\nContent-Length: {}\r\n{}Cache-Control: no-store\r\n"
+        "HTTP/1.1 {} {}\r\nContent-Type: {}\r\n{}{}Cache-Control: no-store\r\n"
         "X-Content-Type-Options: nosniff\r\nConnection: close\r\n\r\n",
-        answer.status, reason_phrase(answer.status), answer.content_type,
-        answer.body ? answer.body->size() : 0, answer.status == 405 ? "Allow: GET, HEAD\r\n" : "");
+        answer.status, reason_phrase(answer.status), answer.content_type, length,
+        answer.status == 405 ? "Allow: GET, HEAD\r\n" : "");
 }
 
 }  // namespace skyig::server::status

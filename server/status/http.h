@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,10 @@ struct HttpAnswer {
     std::string_view content_type = "text/plain; charset=utf-8";
     /// Shared: many may be on their way at once.
     std::shared_ptr<const std::string> body;
+    /// Given, it takes the place of `body`: asked every few milliseconds, it gives null until there is
+    /// something to send. Then the answer is complete, or, where it is endless, goes on with the next part.
+    std::function<std::shared_ptr<const std::string>()> later{};
+    bool endless = false;
 };
 
 /// One line as a whole answer.

@@ -28,6 +28,8 @@ constexpr std::int64_t kWindow_ns = 100'000'000;
 constexpr std::int64_t kMs_ns = 1'000'000;
 /// How long to wait for the client's own end, so that what was sent is not torn away by a reset.
 constexpr std::int64_t kLinger_ns = 1'000'000'000;
+/// How often answers that come later are asked for.
+constexpr std::int64_t kAskEvery_ns = 20'000'000;
 /// The frame loop goes before: this thread may wait.
 constexpr int kNice = 10;
 
@@ -37,9 +39,10 @@ void add(std::atomic<std::uint64_t>& counter) noexcept {
 
 enum class Progress : std::uint8_t { kWaits, kDone, kBroken };
 
-/// One client: its head comes in, one answer goes out, then its end is waited for.
+/// One client: its head comes in, one answer goes out, at once or in parts as they come, then its end is
+/// waited for.
 struct Connection {
-    enum class State : std::uint8_t { kReading, kWriting, kEnding };
+    enum class State : std::uint8_t { kReading, kWaiting, kWriting, kEnding };
 
     transport::FileDescriptor socket;
     std::int64_t since_ns = 0;
@@ -50,6 +53,8 @@ struct Connection {
     /// Null: the answer is its head alone.
     std::shared_ptr<const std::string> body;
     std::size_t sent = 0;
+    /// What has still to come.
+    HttpAnswer pending;
 
     Progress receive() noexcept;
     Progress send() noexcept;
@@ -75,7 +80,7 @@ Progress Connection::send() noexcept {
         if (gone < 0) return errno == EAGAIN || errno == EINTR ? Progress::kWaits : Progress::kBroken;
         sent += static_cast<std::size_t>(gone);
     }
-    ::shutdown(socket.get(), SHUT_WR);
+    if (!pending.later) ::shutdown(socket.get(), SHUT_WR);
     return Progress::kDone;
 }
 
@@ -127,6 +132,8 @@ class HttpServer::Loop {
     void go_on(Connection& connection, std::int64_t now_ns) noexcept;
     void read(Connection& connection, std::int64_t now_ns);
     void answer(Connection& connection, const HttpAnswer& answer, bool with_body, std::int64_t now_ns);
+    void ask_again(Connection& connection, std::int64_t now_ns);
+    void give_up(Connection& connection, std::int64_t now_ns);
     [[nodiscard]] HttpAnswer answer_to(const Head& head) const;
     [[nodiscard]] std::int64_t ends_ns(const Connection& connection) const noexcept;
     [[nodiscard]] bool gives_way(const Connection& connection, std::int64_t now_ns) const noexcept;
@@ -160,10 +167,9 @@ void HttpServer::Loop::run() {
         const std::int64_t now_ns = clock_.monotonic_ns();
         for (std::size_t i = 0; i < connections_.size(); ++i) {
             if (events_[i + 2].revents != 0) go_on(*connections_[i], now_ns);
-            if (connections_[i]->socket && now_ns >= ends_ns(*connections_[i])) {
-                if (connections_[i]->state != Connection::State::kEnding) add(timed_out_);
-                connections_[i]->socket = {};
-            }
+            if (connections_[i]->state == Connection::State::kWaiting) ask_again(*connections_[i], now_ns);
+            if (connections_[i]->socket && now_ns >= ends_ns(*connections_[i]))
+                give_up(*connections_[i], now_ns);
         }
         std::erase_if(connections_, [](const auto& connection) { return !connection->socket; });
         if (events_[1].revents != 0) take_new(now_ns);
@@ -208,6 +214,9 @@ int HttpServer::Loop::wait_ms(std::int64_t now_ns) const noexcept {
     for (const auto& connection : connections_)
         due_ns = std::min(due_ns, ends_ns(*connection));
     if (events_[1].fd < 0) due_ns = std::min(due_ns, now_ns + kWindow_ns);
+    if (std::any_of(connections_.begin(), connections_.end(),
+                    [](const auto& one) { return one->state == Connection::State::kWaiting; }))
+        due_ns = std::min(due_ns, now_ns + kAskEvery_ns);
     if (due_ns == INT64_MAX) return -1;
     return static_cast<int>(std::clamp<std::int64_t>((due_ns - now_ns) / kMs_ns + 1, 1, 60'000));
 }
@@ -245,10 +254,12 @@ void HttpServer::Loop::go_on(Connection& connection, std::int64_t now_ns) noexce
             case Connection::State::kWriting:
                 progress = connection.send();
                 if (progress == Progress::kDone) {
-                    connection.state = Connection::State::kEnding;
+                    connection.state =
+                        connection.pending.later ? Connection::State::kWaiting : Connection::State::kEnding;
                     connection.since_ns = now_ns;
                 }
                 break;
+            case Connection::State::kWaiting:
             case Connection::State::kEnding:
                 if (connection.end() == Progress::kWaits) progress = Progress::kWaits;
                 break;
@@ -266,6 +277,37 @@ void HttpServer::Loop::read(Connection& connection, std::int64_t now_ns) {
     const HttpAnswer made = answer_to(head);
     add(made.status == 200 || made.status == 503 ? answered_ : refused_);
     answer(connection, made, head.request.method != "HEAD", now_ns);
+}
+
+/// Sends what has come of an answer meanwhile.
+void HttpServer::Loop::ask_again(Connection& connection, std::int64_t now_ns) {
+    std::shared_ptr<const std::string> part = connection.pending.later();
+    if (!part) return;
+    connection.sent = 0;
+    connection.body = std::move(part);
+    if (connection.pending.endless) {
+        connection.answer_head.clear();
+    } else {
+        connection.pending.later = nullptr;
+        connection.pending.body = connection.body;
+        connection.answer_head = status::answer_head(connection.pending);
+    }
+    connection.state = Connection::State::kWriting;
+    connection.since_ns = now_ns;
+    go_on(connection, now_ns);
+}
+
+/// Its time is over.
+void HttpServer::Loop::give_up(Connection& connection, std::int64_t now_ns) {
+    if (connection.state != Connection::State::kEnding) add(timed_out_);
+    const bool nothing_came = connection.state == Connection::State::kWaiting && !connection.pending.endless;
+    if (!nothing_came) {
+        connection.socket = {};
+        return;
+    }
+    connection.pending = {};
+    connection.since_ns = now_ns;
+    answer(connection, line_answer(503, "nothing came in time: is the daemon drawing?"), true, now_ns);
 }
 
 HttpAnswer HttpServer::Loop::answer_to(const Head& head) const {
@@ -290,6 +332,13 @@ HttpAnswer HttpServer::Loop::answer_to(const Head& head) const {
 
 void HttpServer::Loop::answer(Connection& connection, const HttpAnswer& answer, bool with_body,
                               std::int64_t now_ns) {
+    if (with_body && answer.later) {
+        connection.pending = answer;
+        if (!answer.endless) {
+            connection.state = Connection::State::kWaiting;
+            return;
+        }
+    }
     connection.answer_head = status::answer_head(answer);
     if (with_body) connection.body = answer.body;
     connection.state = Connection::State::kWriting;

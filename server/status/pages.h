@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/clock.h"
+#include "server/preview.h"
 #include "server/status/account.h"
 #include "server/status/http.h"
 #include "server/status/snapshot_exchange.h"
@@ -21,13 +22,16 @@ struct Edges {
     std::optional<RecorderState> recorder;
 };
 
-/// /status, /metrics, /healthz. For one thread. A page is made anew at most ten times a second, whoever asks
-/// how often.
+/// /status, /metrics, /healthz, and the channels' pictures where there is a preview: /channels/NAME.jpg, the
+/// next one, and NAME.mjpg, all that come (multipart/x-mixed-replace). For one thread. A page is made anew at
+/// most ten times a second, whoever asks how often.
 class Pages {
   public:
     /// \param exchange  whose reader this is; \param edges  may be called on any thread, throws nothing but
     /// std::bad_alloc
-    Pages(Facts facts, SnapshotExchange& exchange, const Clock& clock, std::function<Edges()> edges);
+    /// \param preview  null: no pictures; must outlive this
+    Pages(Facts facts, SnapshotExchange& exchange, const Clock& clock, std::function<Edges()> edges,
+          Preview* preview = nullptr);
 
     [[nodiscard]] HttpAnswer answer(std::string_view path, const PortCounts& port);
 
@@ -40,12 +44,14 @@ class Pages {
         std::int64_t made_ns = 0;
     };
 
+    [[nodiscard]] std::optional<HttpAnswer> picture(std::string_view path) const;
     [[nodiscard]] Account account(std::int64_t now_ns, const PortCounts& port);
 
     Facts facts_;
     SnapshotExchange& exchange_;
     const Clock& clock_;
     std::function<Edges()> edges_;
+    Preview* preview_;
     std::array<Page, 2> pages_;
 };
 

@@ -4,17 +4,15 @@
 
 namespace skyig::server::status {
 
-protocol::Result<std::unique_ptr<StatusPort>, std::string> StatusPort::open(const config::Status& settings,
-                                                                            Facts facts,
-                                                                            SnapshotExchange& exchange,
-                                                                            const Clock& clock,
-                                                                            std::function<Edges()> edges) {
+protocol::Result<std::unique_ptr<StatusPort>, std::string> StatusPort::open(
+    const config::Status& settings, Facts facts, SnapshotExchange& exchange, const Clock& clock,
+    std::function<Edges()> edges, Preview* preview) {
     HttpOptions options;
     const auto address = protocol::transport::parse_ipv4(settings.listen.address);
     if (!address) return protocol::Error{address.error()};
     options.listen = {*address, settings.listen.port};
     std::unique_ptr<StatusPort> port(
-        new StatusPort(Pages(std::move(facts), exchange, clock, std::move(edges))));
+        new StatusPort(Pages(std::move(facts), exchange, clock, std::move(edges), preview)));
     auto server = HttpServer::open(options, clock,
                                    [&pages = port->pages_](std::string_view path, const PortCounts& counts) {
                                        return pages.answer(path, counts);

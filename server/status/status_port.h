@@ -16,7 +16,7 @@ class StatusPort {
     /// What is referred to must outlive the port; `edges` as for Pages. The error is one line.
     [[nodiscard]] static protocol::Result<std::unique_ptr<StatusPort>, std::string> open(
         const config::Status& settings, Facts facts, SnapshotExchange& exchange, const Clock& clock,
-        std::function<Edges()> edges);
+        std::function<Edges()> edges, Preview* preview = nullptr);
 
     [[nodiscard]] protocol::transport::Endpoint local() const noexcept { return server_->local(); }
 

@@ -75,9 +75,10 @@ World::World(const config::Config& config, const ephemeris::UtcClockTime& start_
       clock_(start_utc, config.start.running),
       ownship_(configured_ownship(config.start)),
       celestial_(configured_celestial(config.sky)),
-      air_(configured_air(config.air)),
+      start_weather_(server::start_weather(config)),
       views_(config.channels) {
     own_.track.reset(ownship_);
+    set_start_weather();
 }
 
 Link World::link(std::size_t source) const noexcept {
@@ -213,11 +214,18 @@ void World::reset() {
     entities_.clear();
     earth_ = {};
     celestial_ = configured_celestial(config_.sky);
-    air_ = configured_air(config_.air);
+    set_start_weather();
     views_.reset();
-    weather_.clear();
     surfaces_.clear();
     outbox_.clear();
+    ++resets_;
+}
+
+void World::set_start_weather() noexcept {
+    air_ = configured_air(start_weather_.air);
+    weather_.clear();
+    for (const cigi::WeatherControl& layer : start_weather_.layers)
+        if (!weather_.set(layer)) ++counters_.weather_full;
 }
 
 void World::operator()(const cigi::CelestialSphereControl& packet) {

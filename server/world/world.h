@@ -11,6 +11,7 @@
 #include "protocol/transport/endpoint.h"
 #include "server/ephemeris/time.h"
 #include "server/log.h"
+#include "server/start_weather/start_weather.h"
 #include "server/world/authority.h"
 #include "server/world/entities.h"
 #include "server/world/outbox.h"
@@ -108,6 +109,8 @@ class World {
     [[nodiscard]] const AirState& air() const noexcept { return air_; }
     [[nodiscard]] const Views& views() const noexcept { return views_; }
     [[nodiscard]] const WeatherStore& weather() const noexcept { return weather_; }
+    /// How often Standby has brought back the configured world.
+    [[nodiscard]] std::uint64_t resets() const noexcept { return resets_; }
     [[nodiscard]] const SurfaceStore& surfaces() const noexcept { return surfaces_; }
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
     /// What is to be said to the host in control.
@@ -152,6 +155,7 @@ class World {
     [[nodiscard]] bool in_operation() const noexcept;
     void note_events(const protocol::cigi::SessionEvents& events);
     void reset();
+    void set_start_weather() noexcept;
     void supervise(double step_s);
     /// \return whether it stands there now
     bool place_ownship(bool attached, const Pose& pose);
@@ -203,12 +207,14 @@ class World {
     std::optional<double> stamp_s_;
     EarthModel earth_;
     CelestialSwitches celestial_;
+    StartWeather start_weather_;
     AirState air_;
     Views views_;
     WeatherStore weather_;
     SurfaceStore surfaces_;
     Outbox outbox_;
     Counters counters_;
+    std::uint64_t resets_ = 0;
     double time_s_ = 0.0;
     /// The sum of all steps alone.
     double elapsed_s_ = 0.0;

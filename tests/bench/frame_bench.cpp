@@ -1,14 +1,16 @@
 // What a channel costs, as a multiple of "a write": a full-screen triangle with a literal colour into RGBA8
 // of the same size, drawn in turn with it in the same run. Medians of wall time, and of the processor time of
 // all threads, which other work on the machine touches less.
-//   frame_bench [ROUNDS]     default 60
+//   frame_bench [ROUNDS [clouds]]     default 60; clouds: those alone
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "render/cloud/field/field_maker.h"
 #include "render/geometry.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/texture.h"
@@ -158,12 +160,138 @@ void print_stars(double width_deg, int rounds) {
         stars, width_deg, median(walls), median(processors), median(shared), median(anew));
 }
 
+// Sunlight of a clear noon on clouds of every height.
+void noon_light(const Scene& scene, const Plan& /*plan*/, const LightTables& /*tables*/,
+                const SkyLight& /*sky*/, cloud::CloudLight& light) {
+    light.beams[cloud::CloudLight::kSun] = {true, glm::vec3{scene.sun.direction_enu}};
+    light.beam_lx[cloud::CloudLight::kSun].fill(glm::vec3{1.1e5F});
+    light.above_cd_m2.fill(glm::vec3{3000.0F, 3600.0F, 5000.0F});
+    light.below_cd_m2.fill(glm::vec3{4500.0F});
+}
+
+Scene clouded(double eye_m, CloudGenus genus, CloudModel model, double coverage) {
+    Scene scene = tests::make_scene(48.0, 185.0, -10.0, 40.0, eye_m);
+    CloudLayer& layer = scene.weather.clouds[scene.weather.cloud_count++];
+    layer.genus = genus;
+    layer.model = model;
+    layer.base_m = 1500.0;
+    layer.thickness_m = genus == CloudGenus::kCumulus ? 1200.0 : 500.0;
+    layer.coverage = coverage;
+    return scene;
+}
+
+// What the channels of a rig cost in clouds. Drawing is timed with an eye that stands still, for which
+// nothing is kept up; upkeep is all else that one at 200 m/s costs on all threads, beyond a clear sky.
+void print_clouds(const std::string& name, Scene scene, double pitch_deg, std::size_t channels, int rounds) {
+    std::vector<Channel> list;
+    for (std::size_t i = 0; i < channels; ++i) {
+        list.push_back({"channel", kWidth, kHeight});
+        look_at(scene, 175.0 + 60.0 * (static_cast<double>(i) - 0.5 * static_cast<double>(channels - 1)),
+                pitch_deg, 60.0);
+    }
+    Scene clear = scene;
+    clear.weather.cloud_count = 0;
+    Scene still_scene = scene;
+    Renderer moving(list, {}), still(list, {}), without(list, {});
+    const auto draw_all = [&](Renderer& renderer) {
+        for (std::size_t c = 0; c < channels; ++c)
+            renderer.draw(c);
+    };
+    for (Renderer* renderer : {&moving, &still})
+        renderer->draw_clouds({std::make_unique<cloud::field::FieldMaker>(), noon_light});
+    Write write_once(kWidth, kHeight);
+    std::vector<double> draws, draws_of_cpu, clear_draws, upkeep, rays, tiles;
+    for (int i = -50; i < rounds; ++i) {
+        clear.time_s = still_scene.time_s = scene.time_s += 1.0 / 30.0;
+        scene.eye.latitude_deg += 6e-5;
+        clear.eye = scene.eye;
+        const Spent write = spent(write_once);
+        const Spent plain = spent([&] { without.prepare(clear); });
+        const Spent plain_draw = spent([&] { draw_all(without); });
+        still.prepare(still_scene);
+        const Spent draw = spent([&] { draw_all(still); });
+        const FrameReport* report = nullptr;
+        const Spent all = spent([&] {
+            report = &moving.prepare(scene);
+            draw_all(moving);
+        });
+        if (i < 0) continue;
+        draws.push_back(draw.wall_ms / write.wall_ms);
+        draws_of_cpu.push_back(draw.processor_ms / write.processor_ms);
+        clear_draws.push_back(plain_draw.processor_ms / write.processor_ms);
+        upkeep.push_back((all.processor_ms - draw.processor_ms - plain.processor_ms) / write.processor_ms);
+        rays.push_back(report->cloud_rays);
+        tiles.push_back(static_cast<double>(report->cloud_tiles));
+    }
+    std::printf(
+        "%-15s %zu ch: draw %.2f writes, of cpu %.2f (clear sky %.2f); upkeep of cpu %.2f: %.0f rays, %.0f "
+        "tiles toned\n",
+        name.c_str(), channels, median(draws), median(draws_of_cpu), median(clear_draws), median(upkeep),
+        median(rays), median(tiles));
+}
+
+void print_all_clouds(int rounds) {
+    const Scene overcast = clouded(500.0, CloudGenus::kStratus, CloudModel::kLayer, 1.0);
+    const Scene broken = clouded(500.0, CloudGenus::kCumulus, CloudModel::kVolume, 0.5);
+    const Scene inside = clouded(1700.0, CloudGenus::kStratus, CloudModel::kVolume, 1.0);
+    for (const std::size_t channels : {std::size_t{1}, std::size_t{3}}) {
+        print_clouds("overcast layer", overcast, 20.0, channels, rounds);
+        print_clouds("broken volume", broken, 20.0, channels, rounds);
+        print_clouds("in cloud", inside, 5.0, channels, rounds);
+    }
+}
+
+// What falls: channels drawn with and without it in turn.
+void print_falling(const char* name, const Precipitation& falling, double speed_m_s, double azimuth_deg,
+                   int rounds) {
+    Scene scene = tests::make_scene(30.0, 120.0, -30.0, 200.0, 300.0);
+    look_at(scene, azimuth_deg, 3.0, 60.0);
+    scene.air.visibility_m = 6000.0;
+    scene.weather.wind_m_s = {2.0, 1.0, 0.0};
+    scene.weather.eye_velocity_m_s = {0.0, speed_m_s, 0.0};
+    Scene dry = scene;
+    scene.weather.precipitations[0] = falling;
+    scene.weather.precipitation_count = 1;
+    Renderer renderer({{"only", kWidth, kHeight}}, {});
+    Write write_once(kWidth, kHeight);
+    std::vector<double> walls, processors, shared;
+    for (int i = -5; i < rounds; ++i) {
+        dry.time_s = scene.time_s += 1.0 / 30.0;
+        const Spent write = spent(write_once);
+        const double without_ms = spent([&] { renderer.prepare(dry); }).wall_ms;
+        const Spent sky = spent([&] { renderer.draw(0); });
+        const double with_ms = spent([&] { renderer.prepare(scene); }).wall_ms;
+        const Spent both = spent([&] { renderer.draw(0); });
+        if (i < 0) continue;
+        walls.push_back((both.wall_ms - sky.wall_ms) / write.wall_ms);
+        processors.push_back((both.processor_ms - sky.processor_ms) / write.processor_ms);
+        shared.push_back(with_ms - without_ms);
+    }
+    std::printf("%-10s at %3.0f m/s, looking %2.0f deg off: %.2f writes, of cpu %.2f; shared %.3f ms\n", name,
+                speed_m_s, azimuth_deg, median(walls), median(processors), median(shared));
+}
+
+void print_all_that_falls(int rounds) {
+    const Precipitation rain{Precipitation::Kind::kRain, 10.0, 1500.0};
+    const Precipitation snow{Precipitation::Kind::kSnow, 2.0, 1500.0};
+    for (const double speed_m_s : {0.0, 70.0, 130.0}) {
+        print_falling("rain", rain, speed_m_s, 0.0, rounds);
+        print_falling("rain", rain, speed_m_s, 90.0, rounds);
+    }
+    for (const double speed_m_s : {0.0, 70.0})
+        print_falling("snow", snow, speed_m_s, 90.0, rounds);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 60;
     const gl::HeadlessContext context = gl::HeadlessContext::create(false);
     std::printf("%s, %dx%d, medians of %d rounds\n", context.description().c_str(), kWidth, kHeight, rounds);
+    if (argc > 2) {
+        print_all_clouds(rounds);
+        return 0;
+    }
     std::printf("%-14s %9s %9s %9s %9s %11s %9s %6s\n", "scene", "write ms", "draw ms", "writes", "of cpu",
                 "shared ms", "read ms", "stars");
     for (const NamedView& view : all_views()) {
@@ -177,5 +305,7 @@ int main(int argc, char** argv) {
     for (const double width_deg : {60.0, 120.0})
         print_stars(width_deg, rounds);
     print_deferred(tests::four_times()[1].scene, rounds);
+    print_all_clouds(rounds);
+    print_all_that_falls(rounds);
     return 0;
 }

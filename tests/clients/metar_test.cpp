@@ -47,6 +47,22 @@ TEST(Metar, ExamplesKeyByKey) {
     EXPECT_EQ(keys, 15U * 27U);
 }
 
+TEST(Metar, TheStateIsWhatIsDrawnWithHeightsAboveTheEllipsoid) {
+    MetarOptions options;
+    options.reports = {"METAR UUEE 301333Z 09006MPS 2100 +SHRA BKN012CB 18/16 Q1003"};
+    options.state = true;
+    options.elevation_m = 200.0;
+    const Told done = tell(options);
+    EXPECT_EQ(done.exit_status, 0);
+    const Json got = Json::parse(done.out);
+    EXPECT_EQ(got.at("station"), "UUEE");
+    EXPECT_EQ(got.at("layers").size(), 2U);
+    EXPECT_EQ(got.at("layers")[0].at("type"), "cumulonimbus");
+    EXPECT_NEAR(got.at("layers")[0].at("base_m").get<double>(), 200.0 + 1200.0 * 0.3048, 1e-9);
+    EXPECT_EQ(got.at("layers")[1].at("rate_mm_h"), 15.0);
+    EXPECT_NEAR(got.at("air").at("wind_m_s").get<double>(), 6.0, 1e-9);
+}
+
 TEST(Metar, ABadGroupIsToldAndTheRestStands) {
     const Told done = tell({.reports = {"METAR EGLL 151220Z 40012KT 9999 FEW0X5 SKEID Q1018"}, .json = true});
     EXPECT_EQ(done.exit_status, 1);

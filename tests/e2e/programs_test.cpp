@@ -166,6 +166,20 @@ TEST(Skyigd, MissingDisplayIsOneLineAndStatusOne) {
                    "EGL");
 }
 
+TEST(Skyigd, OpensWindowsWhereTheSettingsWantThemAndThereIsADesktop) {
+    const Site site;
+    const std::string windows =
+        site.scratch.write("windows.toml", read_text(site.config_path) + "[output]\nkind = \"window\"\n");
+    const Finished shown = run({"/usr/bin/xvfb-run", "-a", SKYIGD_PROGRAM, "--config", windows, "--frames",
+                                "3", "--report", site.report_path});
+    EXPECT_EQ(shown.status, 0) << shown.err;
+    const Json report = Json::parse(read_text(site.report_path));
+    EXPECT_EQ(report.at("frames"), 3);
+    EXPECT_EQ(report.at("gl_errors"), 0);
+    expect_failure(skyigd({"--config", windows, "--frames", "1"}, {"DISPLAY="}), "no display for windows");
+    EXPECT_EQ(skyigd({"--config", windows, "--frames", "1", "--headless"}, {"DISPLAY="}).status, 0);
+}
+
 TEST(Skyigd, UnwritableDirectoryIsOneLineAndStatusOne) {
     const Site site;
     const std::string file = site.scratch.write("file", "");

@@ -8,6 +8,7 @@
 #include "render/gl/texture.h"
 #include "render/light_tables.h"
 #include "render/sky_frame.h"
+#include "tests/render/fake_clouds.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/support/allocation_count.h"
 
@@ -17,6 +18,19 @@ namespace {
 using namespace tests;
 
 class Allocation : public GlTest {};
+
+// Rain and snow below its cloud, and a flash each second.
+void add_storm(Scene& scene) {
+    scene.weather.precipitations[0] = {Precipitation::Kind::kRain, 20.0, 4000.0};
+    scene.weather.precipitations[1] = {Precipitation::Kind::kSnow, 2.0, 4000.0};
+    scene.weather.precipitation_count = 2;
+    scene.weather.clouds[0].genus = CloudGenus::kCumulonimbus;
+    scene.weather.clouds[0].base_m = 4000.0;
+    scene.weather.cloud_count = 1;
+    scene.weather.lightnings[0] = {0, 60.0, 5};
+    scene.weather.lightning_count = 1;
+    scene.ground.wet = 0.5;
+}
 
 // A world that goes on: the Sun climbs, the aircraft too, so that tables are rebuilt all the time.
 class Flight {
@@ -93,6 +107,7 @@ TEST_F(Allocation, SteadyFramesAllocateNothingAndSoAgainAfterNewAir) {
     const std::vector<Channel> channels{{"a", 64, 64}, {"b", 64, 64, Screen{100.0, 50.0}}};
     for (auto& [name, scene] : four_times()) {
         if (name == "dawn") add_waves(scene);
+        if (name == "noon" || name == "night") add_storm(scene);
         scene.sky.star_scintillation = true;
         for (const double turn : {-30.0, 30.0})
             add_view(scene, symmetric_frustum(30.0, 64, 64), view_from_enu(180.0, 10.0, 0.0, turn));
@@ -118,12 +133,39 @@ TEST_F(Allocation, SteadyFramesAllocateNothingAndSoAgainAfterNewAir) {
 TEST_F(Allocation, NorDoFramesWithAnotherRenderersPicture) {
     const std::vector<Channel> channels{{"only", 64, 64}};
     for (auto& [name, scene] : four_times()) {
+        if (name == "dusk") add_storm(scene);
         add_view(scene, symmetric_frustum(30.0, 64, 64), view_from_enu(180.0, 10.0, 0.0, 0.0));
+        // Through the top of a fog too.
+        scene.weather.obscurants[scene.weather.obscurant_count++] =
+            Obscurant{.top_m = scene.eye.height_m + 10.0, .top_band_m = 10.0, .extinction_per_m = 0.01};
         Flight flight(channels, scene);
         flight.put_things_at_half_way();
         flight.frames(kWarmUpFrames);
         EXPECT_EQ(flight.frames(100), 0) << name;
     }
+}
+
+TEST(FrameAllocation, CloudsAreFollowedAndTonedWithoutAny) {
+    const FakeSheet sheet{};
+    Scene scene = make_scene(48.0, 185.0, -10.0, 40.0, 2500.0);
+    add_view(scene, symmetric_frustum(30.0, 640, 512), view_from_enu(150.0, 10.0, 0.0));
+    add_layer(scene, sheet);
+    Quality quality;
+    quality.cloud_map_size = 512;
+    SkyFrame frame({}, quality);
+    frame.draw_clouds(fake_clouds(sheet));
+    const auto fly = [&](int frames) {
+        for (int i = 0; i < frames; ++i) {
+            scene.time_s += 1.0 / 30.0;
+            scene.eye.latitude_deg += 6e-5;
+            frame.prepare(scene, 1.8e-3);
+        }
+    };
+    fly(5);
+    ASSERT_TRUE(frame.plan().needs(Pass::kNearClouds));
+    const auto before = skyig::tests::allocation_count();
+    fly(60);
+    EXPECT_EQ(skyig::tests::allocation_count() - before, 0U);
 }
 
 // Without GL: what an evening brings in, and another Milky Way by night.

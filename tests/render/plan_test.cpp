@@ -45,6 +45,19 @@ TEST(Plan, NothingHeldBuildsAirAndSky) {
     EXPECT_TRUE(plan.needs(Pass::kDome));
 }
 
+TEST(Plan, WhatFallsIsDrawnWhereItFalls) {
+    Scene scene = make_scene(30, 180, 10, 0, 1000);
+    EXPECT_FALSE(plan_of(scene, fresh(scene)).needs(Pass::kPrecipitation));
+    scene.weather.precipitations[0] = {Precipitation::Kind::kRain, 0.0, 2000.0};
+    scene.weather.precipitation_count = 1;
+    EXPECT_EQ(plan_of(scene, fresh(scene))[Pass::kPrecipitation].reason, "nothing falls");
+    scene.weather.precipitations[0].rate_mm_h = 0.1;
+    EXPECT_TRUE(plan_of(scene, fresh(scene)).needs(Pass::kPrecipitation));
+    scene.weather.precipitations[0].top_m = 999.0;
+    EXPECT_FALSE(plan_of(scene, fresh(scene)).needs(Pass::kPrecipitation));
+    EXPECT_EQ(plan_of(scene, fresh(scene))[Pass::kPrecipitation].reason, "the eye is above what falls");
+}
+
 TEST(Plan, FreshTablesAreKept) {
     const Scene scene = make_scene(30, 180, 10, 0, 1000);
     const Plan plan = plan_of(scene, fresh(scene));

@@ -34,6 +34,12 @@ void send_all(world::HostBench& bench, int frame) {
     air.pressure = 0.0F;
     cigi::WeatherControl layer;
     layer.layer_id = static_cast<std::uint8_t>(frame);
+    layer.weather_enable = frame % 5 != 0;
+    layer.cloud_type = cigi::CloudType::kCumulus;
+    layer.scope = frame % 2 == 0 ? cigi::WeatherScope::kGlobal : cigi::WeatherScope::kRegional;
+    layer.entity_region_id = static_cast<std::uint16_t>(frame % 300);
+    layer.coverage = static_cast<float>(frame % 100);
+    layer.thickness = 500.0F;
     cigi::EnvRegionControl region;
     region.region_id = static_cast<std::uint16_t>(frame % 300);
     region.region_state = frame % 7 == 0 ? cigi::RegionState::kDestroyed : cigi::RegionState::kActive;

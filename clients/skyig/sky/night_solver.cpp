@@ -72,14 +72,14 @@ void NightSolver::light_by_sun_and_moon(const render::Plan& plan) {
         const render::Horizontal sun = render::horizontal_of(scene_.sun.direction_enu);
         sun_sky_.begin(scene_.sky, tables_, height_m, sun.elevation_rad, true);
         sun_sky_.build_all();
-        light_.sun = {&sun_sky_, sun, glm::vec3{static_cast<float>(plan.sun_share)}, nullptr};
+        light_.sun = {&sun_sky_, sun, glm::vec3{static_cast<float>(plan.sun_share)}, nullptr, {}, 1.0F};
     }
     if (!moon_ || !(plan.moon_share > 0.0)) return;
     const render::Horizontal moon = render::horizontal_of(scene_.moon.direction_enu);
     moon_sky_.begin(scene_.sky, tables_, height_m, moon.elevation_rad, false);
     moon_sky_.build_all();
     light_.moon = {&moon_sky_, moon, render::moon_scale_xyz(scene_, tables_.model(), plan.moon_share),
-                   nullptr};
+                   nullptr,    {},   1.0F};
 }
 
 glm::dvec3 NightSolver::xyz(double view_zenith_deg, double rel_azimuth_deg) {

@@ -7,9 +7,11 @@
 #include <glm/gtc/constants.hpp>
 #include <utility>
 
+#include "config/presets.h"
 #include "server/from_config.h"
 #include "server/log.h"
 #include "server/scene_builder.h"
+#include "server/start_weather/start_weather.h"
 #include "server/world/world.h"
 
 namespace skyig::clients {
@@ -26,8 +28,8 @@ config::Config base_config(const StillOptions& options) {
         channel.height_px = options.height_px;
         channel.right_deg = options.fov_deg / 2.0;
         channel.left_deg = -channel.right_deg;
-        const double top = std::tan(glm::radians(channel.right_deg)) * options.height_px / options.width_px;
-        channel.top_deg = glm::degrees(std::atan(top));
+        channel.top_deg =
+            config::matching_field_deg(options.fov_deg, options.width_px, options.height_px) / 2.0;
         channel.bottom_deg = -channel.top_deg;
         return config;
     }
@@ -38,8 +40,28 @@ config::Config base_config(const StillOptions& options) {
     return std::move(*loaded.config);
 }
 
+void take_weather(const StillOptions& options, config::Config& config) {
+    const auto fail = [](const std::string& fault) {
+        fmt::print(stderr, "{}\n", fault);
+        throw StillErrors{};
+    };
+    config.weather.elevation_m = options.elevation_m.value_or(config.weather.elevation_m);
+    if (!options.weather_preset.empty()) {
+        const std::string fault = config::apply_preset(options.weather_preset, config);
+        if (!fault.empty()) fail("--weather: " + fault);
+    }
+    if (!options.metar.empty()) {
+        config.weather.preset.clear();
+        config.weather.layers.clear();
+        config.weather.metar = options.metar;
+    }
+    const std::string source = options.metar.empty() ? options.config_path : "--metar";
+    if (const std::string fault = server::metar_fault(config, source); !fault.empty()) fail(fault);
+}
+
 config::Config still_config(const StillOptions& options) {
     config::Config config = base_config(options);
+    take_weather(options, config);
     config::Start& start = config.start;
     start.running = false;
     start.latitude_deg = options.latitude_deg.value_or(start.latitude_deg);
@@ -68,7 +90,8 @@ server::SceneBuilder scene_builder(const StillOptions& options, const config::Co
     }
     return server::SceneBuilder(server::ephemeris_model(config), std::move(*orientation.orientation),
                                 server::sky_settings(config.sky), server::ground_settings(config.ground),
-                                server::night_settings(config.night));
+                                server::night_settings(config.night),
+                                server::weather::weather_settings(config.weather));
 }
 
 }  // namespace

@@ -26,6 +26,15 @@ void add_still(CLI::App& verb, StillOptions& options) {
     verb.add_option("--roll", options.roll_deg, "degrees right wing down")->check(finite_in(-180.0, 180.0));
     verb.add_option("--visibility-m", options.visibility_m, "visibility at the ground, metres")
         ->check(finite_in(10.0, 400'000.0));
+    CLI::Option* preset = verb.add_option("--weather", options.weather_preset,
+                                          "ready-made weather (cavok, few ... cat3b), or a file of such")
+                              ->type_name("PRESET");
+    verb.add_option("--metar", options.metar, "a weather report, in quotes")
+        ->type_name("TEXT")
+        ->excludes(preset);
+    verb.add_option("--elevation", options.elevation_m,
+                    "height that those of a preset or report count from, metres above the ellipsoid")
+        ->check(finite_in(-500.0, 9000.0));
     const auto take_model = [&options](const std::string& name) {
         const auto* const at = std::find(render::kSkyModelNames.begin(), render::kSkyModelNames.end(), name);
         options.sky_model = static_cast<config::SkyModel>(at - render::kSkyModelNames.begin());

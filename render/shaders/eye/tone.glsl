@@ -92,4 +92,18 @@ SKYIG_INLINE rvec3 encoded(rvec3 display, ToneParameters tone) {
     return rvec3(v.x <= toe ? low.x : high.x, v.y <= toe ? low.y : high.y, v.z <= toe ? low.z : high.z);
 }
 
+// What encoded() was given for a code below the shoulder: where it bends nothing.
+SKYIG_INLINE rvec3 displayed(rvec3 code, ToneParameters tone) {
+    if (stores_luminance(tone) || tone.encode_power < real(0.0)) return code;
+    bool srgb = tone.encode_power == real(0.0);
+    real power = srgb ? real(2.4) : real(1.0) / tone.encode_power;
+    real scale = srgb ? real(1.0) / real(1.055) : real(1.0);
+    real toe = srgb ? real(0.04045) : real(0.0);
+    rvec3 v = clamp(code, rvec3(real(0.0)), rvec3(real(1.0)));
+    rvec3 low = v * (real(1.0) / real(12.92));
+    rvec3 high = pow((v + rvec3(srgb ? real(0.055) : real(0.0))) * scale, rvec3(power));
+    rvec3 sent = rvec3(v.x <= toe ? low.x : high.x, v.y <= toe ? low.y : high.y, v.z <= toe ? low.z : high.z);
+    return sent + rvec3(tone.ambient);
+}
+
 SKYIG_INLINE rvec3 shown(rvec3 rgb_cd_m2, ToneParameters tone) { return encoded(display_linear(rgb_cd_m2, tone), tone); }

@@ -9,6 +9,7 @@ layout(location = 2) in vec3 a_colour;
 layout(location = 3) in float a_bend;
 
 uniform mat4 u_clip_from_galactic;
+uniform mat3 u_enu_from_galactic; // this one and what follows from it where clouds are drawn alone
 uniform vec2 u_half_size_px;
 uniform vec3 u_up_galactic;      // both over the width of the horizon's edge
 uniform float u_horizon_sine;
@@ -16,6 +17,7 @@ uniform vec2 u_place_scale;      // from edge to edge of the map to its texels
 uniform vec2 u_place_shift;
 
 out vec2 v_place;
+out vec3 v_direction;
 out vec3 v_colour;
 out float v_bend;
 out float v_above_horizon;
@@ -23,6 +25,7 @@ out float v_dither_phase_w;
 
 void main() {
     gl_Position = u_clip_from_galactic * vec4(a_direction, 1.0);
+    v_direction = u_enu_from_galactic * a_direction;
     v_place = a_place * u_place_scale + u_place_shift;
     v_colour = a_colour;
     v_bend = a_bend;

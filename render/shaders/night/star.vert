@@ -4,6 +4,7 @@
 // own solid angle, so that the sum over the pixels of luminance times solid angle is its illuminance.
 #include "common/scalar.glsl"
 #include "eye/tone.glsl"
+#include "cloud/fetch.glsl"
 
 layout(location = 0) in vec3 a_direction_enu;
 layout(location = 1) in vec3 a_illuminance_lux;    // linear Rec.709 behind the air
@@ -11,6 +12,8 @@ layout(location = 2) in vec3 a_background_cd_m2;   // of the sky behind the star
 
 uniform ToneParameters u_tone;
 uniform mat4 u_view_from_enu;
+uniform mat4 u_enu_from_update;  // what has turned all stars since their directions were written
+uniform float u_clouds_shown;    // 0 or 1
 uniform vec2 u_size_px;
 uniform vec2 u_plane_origin;     // image plane at distance 1: where window coordinate 0 lies,
 uniform vec2 u_plane_step;       // and the size of a pixel
@@ -42,4 +45,10 @@ void main() {
     v_peak = a_illuminance_lux * (u_peak_gain * stretch * sqrt(stretch));
     v_background = display_linear(a_background_cd_m2, u_tone);
     v_background_code = encoded(v_background, u_tone);
+    if (u_clouds_shown > 0.5) {
+        vec4 clouds = clouds_at((u_enu_from_update * vec4(a_direction_enu, 0.0)).xyz);
+        v_peak *= clouds.a;
+        v_background = displayed(v_background_code * clouds.a + clouds.rgb, u_tone);
+        v_background_code = encoded(v_background, u_tone);
+    }
 }

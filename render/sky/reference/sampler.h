@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "render/mixed_bits.h"
+
 namespace skyig::render::sky::reference {
 
 /// SplitMix64 (Steele, Lea & Flood, OOPSLA 2014).
@@ -14,14 +16,12 @@ class Random {
     explicit Random(std::uint64_t seed) noexcept : state_(seed) {}
 
     std::uint64_t bits() noexcept {
+        const std::uint64_t answer = mixed(state_);
         state_ += 0x9e3779b97f4a7c15U;
-        std::uint64_t z = state_;
-        z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-        z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-        return z ^ (z >> 31U);
+        return answer;
     }
     /// In [0, 1).
-    double uniform() noexcept { return static_cast<double>(bits() >> 11U) * 0x1p-53; }
+    double uniform() noexcept { return unit_of(bits()); }
 
   private:
     std::uint64_t state_;

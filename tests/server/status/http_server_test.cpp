@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -233,6 +234,62 @@ TEST(StatusPort, ServesThePagesOfTheNewestSnapshot) {
     EXPECT_THAT(get("/"), ::testing::AllOf(StartsWith("HTTP/1.1 404 "), HasSubstr("/status")));
     std::this_thread::sleep_for(milliseconds(1200));
     EXPECT_THAT(get("/healthz"), ::testing::AllOf(StartsWith("HTTP/1.1 503 "), HasSubstr("no frame for 1.")));
+}
+
+/// An answer that comes in parts, each when it is told to.
+struct Parts {
+    std::atomic<int> ready{0};
+    int given = 0;  // the server's
+
+    [[nodiscard]] HttpServer::Handler handler(bool endless) {
+        return [this, endless](std::string_view, const PortCounts&) {
+            HttpAnswer answer;
+            answer.endless = endless;
+            answer.later = [this]() -> std::shared_ptr<const std::string> {
+                if (given >= ready.load()) return nullptr;
+                return std::make_shared<const std::string>("part " + std::to_string(++given) + ";");
+            };
+            return answer;
+        };
+    }
+};
+
+TEST_F(HttpServerTest, AnswersLaterWhatComesLater) {
+    Parts parts;
+    HttpOptions options;
+    options.time_limit = milliseconds(300);
+    auto opened = HttpServer::open(options, clock_, parts.handler(false));
+    ASSERT_TRUE(opened);
+    server_ = std::move(opened).value();
+    const Client waits = client();
+    waits.send(kGet);
+    std::this_thread::sleep_for(milliseconds(60));
+    parts.ready = 1;
+    const std::string got = waits.receive().value_or("nothing");
+    EXPECT_THAT(got, HasSubstr("Content-Length: 7\r\n"));
+    EXPECT_THAT(got, ::testing::EndsWith("\r\n\r\npart 1;"));
+    // Nothing comes in time.
+    EXPECT_THAT(ask(kGet), StartsWith("HTTP/1.1 503 "));
+    EXPECT_EQ(server_->counts().timed_out, 1U);
+}
+
+TEST_F(HttpServerTest, AnEndlessAnswerGoesOnAndHoldsNobodyUpWhoReadsNone) {
+    Parts parts;
+    HttpOptions options;
+    options.time_limit = milliseconds(300);
+    auto opened = HttpServer::open(options, clock_, parts.handler(true));
+    ASSERT_TRUE(opened);
+    server_ = std::move(opened).value();
+    const Client reads = client();
+    reads.send(kGet);
+    for (int part = 1; part <= 3; ++part) {
+        std::this_thread::sleep_for(milliseconds(40));
+        parts.ready = part;
+    }
+    // Then nothing comes any more, and the answer ends.
+    const std::string got = reads.receive().value_or("nothing");
+    EXPECT_THAT(got, ::testing::Not(HasSubstr("Content-Length")));
+    EXPECT_THAT(got, ::testing::EndsWith("\r\n\r\npart 1;part 2;part 3;"));
 }
 
 }  // namespace

@@ -1,0 +1,155 @@
+#include "config/weather.h"
+
+#include <fmt/format.h>
+
+#include "config/schema.h"
+
+namespace skyig::config {
+namespace {
+
+constexpr std::array<std::string_view, 4> kCloudModelNames{"auto", "layer", "impostor", "volume"};
+constexpr std::array<std::string_view, 2> kDriverNames{"layers", "keyframes"};
+constexpr double kMetresPerFoot = 0.3048;
+constexpr double kMostHeight_m = 30'000.0;
+
+/// A length that may be told in metres or in feet, but not in both. \return whether it is there
+bool read_length(TableReader& table, std::string_view metres, std::string_view feet, double least_m,
+                 double& out_m, bool above_least = false) {
+    const bool both = table.has(metres) && table.has(feet);
+    const bool told = table.has(metres) || table.has(feet);
+    table.number(metres, out_m, {least_m, kMostHeight_m, "m", above_least});
+    double read_ft = 0.0;
+    const Value* value = table.number(
+        feet, read_ft, {least_m / kMetresPerFoot, kMostHeight_m / kMetresPerFoot, "ft", above_least});
+    if (value != nullptr && both)
+        table.error(*value, feet, fmt::format("stands beside {}; only one of them may be given", metres));
+    if (value != nullptr) out_m = read_ft * kMetresPerFoot;
+    return told;
+}
+
+void read_extent(TableReader& table, WeatherLayer& layer) {
+    const bool has_base = read_length(table, "base_m", "base_ft", -1000.0, layer.base_m);
+    if (!has_base && is_cloud(layer.type))
+        table.require("base_m", "its height above weather.elevation_m, or base_ft in its place");
+    double top_m = 0.0;
+    const bool has_top = read_length(table, "top_m", "top_ft", -1000.0, top_m);
+    const bool has_thickness =
+        read_length(table, "thickness_m", "thickness_ft", 0.0, layer.thickness_m, true);
+    const std::string_view top_key = table.has("top_ft") ? "top_ft" : "top_m";
+    if (has_top && has_thickness) {
+        table.error(*table.any(top_key), top_key, "stands beside its thickness; only one may be given");
+    } else if (has_top) {
+        layer.thickness_m = top_m - layer.base_m;
+        if (layer.thickness_m <= 0.0)
+            table.error(*table.any(top_key), top_key, "is not above the base; it must be");
+    } else if (!has_thickness) {
+        table.require("top_m", "the height of its top, or top_ft, thickness_m or thickness_ft in its place");
+    }
+    double band_m = is_cloud(layer.type) ? 30.0 : 0.0;
+    read_length(table, "band_m", "band_ft", 0.0, band_m);
+    layer.bottom_band_m = layer.top_band_m = band_m;
+    read_length(table, "bottom_band_m", "bottom_band_ft", 0.0, layer.bottom_band_m);
+    read_length(table, "top_band_m", "top_band_ft", 0.0, layer.top_band_m);
+}
+
+void read_amount(TableReader& table, WeatherLayer& layer) {
+    double read = 0.0;
+    const Value* oktas = table.number("coverage_oktas", read, {0.0, 8.0, "oktas"});
+    if (oktas != nullptr) layer.coverage = read / 8.0;
+    const Value* percent = table.number("coverage_pct", read, {0.0, 100.0, "%"});
+    if (percent != nullptr) layer.coverage = read / 100.0;
+    if (oktas != nullptr && percent != nullptr)
+        table.error(*percent, "coverage_pct", "stands beside coverage_oktas; only one of them may be given");
+    table.number("visibility_m", layer.visibility_m, {5.0, 400'000.0, "m"});
+    if (!is_cloud(layer.type) && !falls(layer.type))
+        table.require("visibility_m", "how far one sees inside it, 5..400000 m");
+    table.integer("severity", layer.severity, 0, 5);
+    const Value* rate = table.number("rate_mm_h", layer.rate_mm_h, {0.0, 300.0, "mm/h", true});
+    if (rate != nullptr && !falls(layer.type))
+        table.error(*rate, "rate_mm_h", "is of what falls alone: drizzle, rain, snow, sleet, hail");
+}
+
+void read_cloud_extras(TableReader& table, WeatherLayer& layer) {
+    const auto cloud_only = [&](const Value* value, std::string_view key) {
+        if (value != nullptr && !is_cloud(layer.type)) table.error(*value, key, "is of clouds alone");
+    };
+    cloud_only(table.number("scud_pct", layer.bottom_scud_pct, {0.0, 100.0, "%"}), "scud_pct");
+    cloud_only(table.number("top_scud_pct", layer.top_scud_pct, {0.0, 100.0, "%"}), "top_scud_pct");
+    cloud_only(table.boolean("lightning", layer.lightning), "lightning");
+}
+
+void read_layer(TableReader& table, WeatherLayer& layer) {
+    std::size_t index = 0;
+    table.require("type", "what it is: \"cumulus\", \"stratus\", \"fog\", \"rain\" ...");
+    const bool known = table.choice("type", index, kLayerTypeNames) != nullptr;
+    if (known) layer.type = static_cast<LayerType>(index);
+    int id = 0;
+    if (const Value* value = table.integer("id", id, 1, 255)) {
+        layer.id = id;
+        if (!is_cloud(layer.type)) table.error(*value, "id", "is of clouds alone");
+        if (id > 3 && id < 14)
+            table.error(*value, "id",
+                        fmt::format("is {}, that of another type; it must be 1..3 or 14..255", id));
+    }
+    read_extent(table, layer);
+    read_amount(table, layer);
+    read_cloud_extras(table, layer);
+    double wind = 0.0;
+    if (table.number("wind_m_s", wind, {0.0, 150.0, "m/s"}) != nullptr) layer.wind_m_s = wind;
+    const Value* from = table.number("wind_from_deg", layer.wind_from_deg, {-360.0, 360.0, "degrees"});
+    if (from != nullptr && !table.has("wind_m_s"))
+        table.error(*from, "wind_from_deg", "stands without wind_m_s; give both or none");
+    table.finish();
+}
+
+void read_layers(TableReader& weather, ErrorList& errors, std::vector<WeatherLayer>& layers) {
+    const Value* value = weather.any("layer");
+    if (value == nullptr) return;
+    const auto* list = std::get_if<Array>(&value->data);
+    if (list == nullptr) {
+        weather.error(*value, "layer", "must be tables: write [[weather.layer]] in double brackets");
+        return;
+    }
+    if (layers.size() + list->items.size() > kMaxWeatherLayers) {
+        weather.error(*value, "layer",
+                      fmt::format("makes {} with the preset's; at most {}",
+                                  layers.size() + list->items.size(), kMaxWeatherLayers));
+        return;
+    }
+    int number = 0;
+    for (const Value& item : list->items) {
+        const auto* table = std::get_if<Table>(&item.data);
+        if (table == nullptr) {
+            weather.error(item, "layer",
+                          fmt::format("holds {}; write [[weather.layer]] tables", type_name(item)));
+            continue;
+        }
+        TableReader reader(errors, table, item.place, fmt::format("weather.layer[{}]", ++number));
+        read_layer(reader, layers.emplace_back());
+    }
+}
+
+}  // namespace
+
+void read_weather(TableReader table, ErrorList& errors, Weather& weather) {
+    const Value* preset = table.text("preset", weather.preset);
+    if (preset != nullptr && weather.preset.empty())
+        table.error(*preset, "preset", "is empty; it must name a preset or a file, or be left out");
+    const Value* metar = table.text("metar", weather.metar);
+    if (metar != nullptr && weather.metar.empty())
+        table.error(*metar, "metar", "is empty; it must be a weather report, or be left out");
+    if (metar != nullptr && preset != nullptr)
+        table.error(*metar, "metar", "stands beside preset; give one of them");
+    table.number("elevation_m", weather.elevation_m, {-500.0, 9000.0, "m"});
+    table.number("transition_s", weather.transition_s, {0.0, 600.0, "s"});
+    std::size_t index = 0;
+    if (table.choice("clouds", index, kCloudModelNames) != nullptr)
+        weather.clouds = static_cast<CloudModel>(index);
+    if (table.choice("driver", index, kDriverNames) != nullptr)
+        weather.driver = static_cast<WeatherDriver>(index);
+    read_keyframes(table.table("keyframes"), weather.keyframes);
+    read_layers(table, errors, weather.layers);
+    table.finish();
+}
+
+}  // namespace skyig::config

@@ -1,0 +1,198 @@
+#include "render/cloud/snapshot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/geometry.h"
+
+namespace skyig::render::cloud {
+
+namespace {
+
+constexpr LightAndPassed kClear{{0.0F, 0.0F, 0.0F, 1.0F}};
+constexpr CloudSample kNoCloud{};
+
+// Rays that tell whether a tile is worth a look stand so many texels apart, and are as wide.
+constexpr int kCoarseStep = 4;
+constexpr int kCoarse = kTile / kCoarseStep + 1;
+
+}  // namespace
+
+glm::dvec3 eye_offset_m(const Eye& from, const Eye& to) noexcept {
+    const double radius_m = kEarthRadius_m + from.height_m;
+    const double east_deg = std::remainder(to.longitude_deg - from.longitude_deg, 360.0);
+    return {glm::radians(east_deg) * std::cos(glm::radians(from.latitude_deg)) * radius_m,
+            glm::radians(to.latitude_deg - from.latitude_deg) * radius_m, to.height_m - from.height_m};
+}
+
+void Snapshot::resize(const MapGeometry& geometry, std::size_t probes) {
+    probes_.reserve(probes);
+    geometry_ = geometry;
+    light_.assign(geometry.texel_count(), kClear);
+    reach_m_.assign(geometry.texel_count(), 0.0F);
+    const auto tiles = static_cast<std::size_t>(geometry.tile_count());
+    tiles_.assign(tiles, Tile::kUnknown);
+    holds_clear_.assign(tiles, 1);
+    const auto nodes = static_cast<std::size_t>(2 * nodes_across() * nodes_across());
+    for (auto* each : {&inverse_m_, &weight_, &spread_})
+        each->assign(nodes, 0.0F);
+}
+
+void Snapshot::begin(const Frozen& frozen) noexcept {
+    frozen_ = frozen;
+    std::fill(tiles_.begin(), tiles_.end(), Tile::kUnknown);
+}
+
+glm::vec3 Snapshot::straight(const glm::vec3& seen) const noexcept {
+    const glm::dvec3 unit = glm::normalize(glm::dvec3{seen});
+    if (unit.z >= 0.0) return glm::vec3{unit};
+    const Horizontal at = horizontal_of(unit);
+    return glm::vec3{direction_of(
+        {straight_elevation_rad(at.elevation_rad, frozen_.seen_horizon_rad, frozen_.straight_horizon_rad),
+         at.azimuth_rad})};
+}
+
+void Snapshot::clear(int tile) noexcept {
+    tiles_[static_cast<std::size_t>(tile)] = Tile::kClear;
+    std::uint8_t& holds_clear = holds_clear_[static_cast<std::size_t>(tile)];
+    if (holds_clear != 0) return;
+    holds_clear = 1;
+    const MapGeometry::Texel corner = geometry_.corner(tile);
+    for (int row = 0; row < kTile; ++row) {
+        const std::size_t first = geometry_.index({corner.column, corner.row + row, corner.lower});
+        std::fill_n(&light_[first], kTile, kClear);
+        std::fill_n(&reach_m_[first], kTile, 0.0F);
+    }
+}
+
+void Snapshot::march(const CloudSource& source, int tile) noexcept {
+    const MapGeometry::Texel corner = geometry_.corner(tile);
+    const auto direction = [&](int column, int row) {
+        return straight(geometry_.direction(corner.column + column, corner.row + row, corner.lower));
+    };
+    const glm::vec3 middle = direction(kTile / 2, kTile / 2);
+    const float texel_rad = std::max(glm::length(direction(kTile / 2 + 1, kTile / 2) - middle),
+                                     glm::length(direction(kTile / 2, kTile / 2 + 1) - middle));
+
+    std::array<CloudRay, kTileTexels> rays;
+    std::array<CloudSample, kTileTexels> samples;
+    for (int i = 0; i < kCoarse * kCoarse; ++i) {
+        rays[static_cast<std::size_t>(i)].direction_enu =
+            direction(i % kCoarse * kCoarseStep, i / kCoarse * kCoarseStep);
+    }
+    constexpr std::size_t kCoarseCount = std::size_t{kCoarse} * kCoarse;
+    source.march(std::span{rays}.first<kCoarseCount>(), frozen_.range,
+                 static_cast<float>(kCoarseStep) * texel_rad, std::span{samples}.first<kCoarseCount>());
+    if (std::all_of(samples.begin(), samples.begin() + kCoarseCount,
+                    [](const CloudSample& sample) { return sample == kNoCloud; })) {
+        clear(tile);
+        return;
+    }
+    for (int i = 0; i < kTileTexels; ++i)
+        rays[static_cast<std::size_t>(i)].direction_enu = direction(i % kTile, i / kTile);
+    source.march(rays, frozen_.range, texel_rad, samples);
+    for (int i = 0; i < kTileTexels; ++i) {
+        const CloudSample& sample = samples[static_cast<std::size_t>(i)];
+        const std::size_t to =
+            geometry_.index({corner.column + i % kTile, corner.row + i / kTile, corner.lower});
+        light_[to].v = LightAndPassed::Lanes{sample.light_cd_m2.x, sample.light_cd_m2.y, sample.light_cd_m2.z,
+                                             sample.transmittance};
+        reach_m_[to] = (1.0F - sample.transmittance) * sample.distance_m;
+    }
+    tiles_[static_cast<std::size_t>(tile)] = Tile::kCloud;
+    holds_clear_[static_cast<std::size_t>(tile)] = 0;
+}
+
+void Snapshot::march_probes(const CloudSource& source, std::span<const glm::vec3> seen_enu, float ray_rad) {
+    probes_.resize(seen_enu.size());
+    for (std::size_t i = 0; i < seen_enu.size(); ++i) {
+        const CloudRay ray{straight(seen_enu[i])};
+        source.march({&ray, 1}, {}, ray_rad, {&probes_[i], 1});
+    }
+}
+
+// Each node takes what lies nearest to it.
+void Snapshot::gather_tile(int tile) noexcept {
+    const MapGeometry::Texel corner = geometry_.corner(tile);
+    for (int i = 0; i < kTileTexels; ++i) {
+        const int column = corner.column + i % kTile;
+        const int row = corner.row + i / kTile;
+        const std::size_t from = geometry_.index({column, row, corner.lower});
+        const float opacity = 1.0F - light_[from].v[3];
+        if (!(reach_m_[from] > 0.0F) || opacity < 1e-4F) continue;
+        const std::size_t node =
+            node_index((column + kNodeStep / 2) / kNodeStep, (row + kNodeStep / 2) / kNodeStep, corner.lower);
+        const float length = glm::length(geometry_.direction(column, row, corner.lower));
+        inverse_m_[node] += opacity * length * opacity / reach_m_[from];
+        weight_[node] += opacity;
+    }
+}
+
+// Nodes without clouds take what those around them have.
+void Snapshot::spread() noexcept {
+    const int across = nodes_across();
+    spread_ = inverse_m_;
+    for (int i = 0; i < 2 * across * across; ++i) {
+        if (inverse_m_[static_cast<std::size_t>(i)] > 0.0F) continue;
+        const bool lower = i >= across * across;
+        const int row = i / across - (lower ? across : 0);
+        const int column = i % across;
+        float sum = 0.0F;
+        float count = 0.0F;
+        for (int r = std::max(row - 1, 0); r <= std::min(row + 1, across - 1); ++r) {
+            for (int c = std::max(column - 1, 0); c <= std::min(column + 1, across - 1); ++c) {
+                const float there = inverse_m_[node_index(c, r, lower)];
+                sum += there;
+                count += there > 0.0F ? 1.0F : 0.0F;
+            }
+        }
+        if (count > 0.0F) spread_[static_cast<std::size_t>(i)] = sum / count;
+    }
+    std::swap(spread_, inverse_m_);
+}
+
+void Snapshot::lay_distances() noexcept {
+    std::fill(inverse_m_.begin(), inverse_m_.end(), 0.0F);
+    std::fill(weight_.begin(), weight_.end(), 0.0F);
+    for (int i = 0; i < geometry_.tile_count(); ++i) {
+        if (tile(i) == Tile::kCloud) gather_tile(i);
+    }
+    for (std::size_t i = 0; i < inverse_m_.size(); ++i)
+        inverse_m_[i] = weight_[i] > 0.0F ? inverse_m_[i] / weight_[i] : 0.0F;
+    constexpr int kReach = 3;
+    for (int i = 0; i < kReach; ++i)
+        spread();
+}
+
+float Snapshot::nearest_inverse(int tile) const noexcept {
+    const MapGeometry::Texel corner = geometry_.corner(tile);
+    float most = 0.0F;
+    for (int row = 0; row <= kTile / kNodeStep; ++row) {
+        for (int column = 0; column <= kTile / kNodeStep; ++column) {
+            most = std::max(most, inverse_distance(corner.column / kNodeStep + column,
+                                                   corner.row / kNodeStep + row, corner.lower));
+        }
+    }
+    // Lengths of directions whose components' sizes sum to 1 are 0.577 at least.
+    return most * 1.7320508F;
+}
+
+float Snapshot::inverse_distance(const glm::vec3& direction) const noexcept {
+    const glm::vec2 place = shaders32::cloud_map_place(direction);
+    const auto step = static_cast<float>(geometry_.size() - 1) / (2.0F * kNodeStep);
+    const auto most = static_cast<float>(nodes_across() - 2);
+    const float x = std::clamp((place.x + 1.0F) * step, 0.0F, most);
+    const float y = std::clamp((place.y + 1.0F) * step, 0.0F, most);
+    const int column = static_cast<int>(x);
+    const int row = static_cast<int>(y);
+    const float right = x - static_cast<float>(column);
+    const float down = y - static_cast<float>(row);
+    const bool lower = direction.z < 0.0F;
+    const auto along = [&](int r) {
+        return glm::mix(inverse_distance(column, r, lower), inverse_distance(column + 1, r, lower), right);
+    };
+    return glm::mix(along(row), along(row + 1), down);
+}
+
+}  // namespace skyig::render::cloud

@@ -1,0 +1,121 @@
+// The clouds of a frame as all channels share them: the map in linear light, toned for each screen tile by
+// tile, the air between laid over it; and what anything behind clouds asks. Free of GL.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "render/cloud/cloud_map.h"
+#include "render/cloud/tile_tone.h"
+#include "render/deferred.h"
+#include "render/eye/adaptation.h"
+#include "render/shaders/shared.h"
+#include "render/sky_light.h"
+
+namespace skyig::render {
+
+/// One tile of a screen's map, made anew in this frame.
+struct TonedTile {
+    int tile = 0;
+    /// Of CloudFrame::texels(), in floats; kClear: no cloud is seen there.
+    std::size_t first = 0;
+    static constexpr std::size_t kClear = static_cast<std::size_t>(-1);
+};
+
+class CloudFrame {
+  public:
+    /// Of the tiles whose sky has changed, what a frame looks up.
+    static constexpr std::size_t kBackdropsAFrame = 16;
+    /// Floats of a toned tile: colour and factor, row by row. \see cloud::ToneKernel
+    static constexpr std::size_t kTileFloats = std::size_t{cloud::kTileTexels} * 4;
+
+    explicit CloudFrame(std::size_t screens);
+
+    /// No clouds: nothing is held or shown.
+    void stop() noexcept;
+    /// The frame's clouds in linear light; from then on seen_through() and its like may be asked.
+    void follow(cloud::CloudMaker& maker, const Scene& scene, const cloud::CloudLight& on_clouds,
+                const SkyLight& light, bool jumped, int size, int tiles_a_frame);
+    /// Tones what has changed. \param tones  one for each screen \param light_revision  rises when the light
+    /// has changed by what may show \param tone_revision  likewise
+    void tone(const SkyLight& light, const DeferredAir& air, std::span<const shaders64::ToneParameters> tones,
+              std::uint64_t light_revision, std::uint64_t tone_revision);
+
+    [[nodiscard]] bool shown() const noexcept { return shown_; }
+    [[nodiscard]] const cloud::CloudMap& map() const noexcept { return map_; }
+    /// The same for all screens.
+    [[nodiscard]] std::span<const TonedTile> toned() const noexcept { return toned_; }
+    [[nodiscard]] std::span<const float> texels(std::size_t screen) const noexcept { return texels_[screen]; }
+    /// Rises when the map has got another size: all of it is clear until told otherwise.
+    [[nodiscard]] std::uint64_t size_revision() const noexcept { return size_revision_; }
+    /// Cones of the tiles that show clouds to a view.
+    [[nodiscard]] std::span<const cloud::Cone> clouded() const noexcept { return clouded_; }
+
+    /// Of all clouds in a direction that a view sees, 0..1; 1 without clouds.
+    [[nodiscard]] double transmittance(const glm::dvec3& direction_enu) const noexcept;
+    enum class Body : std::size_t { kSun, kMoon };
+    /// Towards a body as it is seen, in view or not.
+    [[nodiscard]] double transmittance(Body body) const noexcept;
+    /// What is seen of light behind all clouds and air, with the clouds' own. \param direction_enu  in a view
+    [[nodiscard]] glm::dvec3 seen_through(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
+                                          const glm::dvec3& direction_enu) const noexcept;
+    /// The same in the direction of one of eye::probe_directions().
+    [[nodiscard]] glm::dvec3 probed(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
+                                    std::size_t probe) const noexcept;
+
+  private:
+    static constexpr int kNodes = 5;  // on a tile's side, its neighbours' first with them
+    static constexpr std::size_t kNodeCount = std::size_t{kNodes} * kNodes;
+    /// What stands behind a tile and between, at its nodes.
+    struct Backdrop {
+        glm::vec3 sky[kNodeCount];
+        glm::vec3 ground[kNodeCount];
+        glm::vec3 extinction[kNodeCount];
+        glm::vec3 convergence[kNodeCount];
+        /// Both stand behind it.
+        bool horizon = false;
+        /// Light changes so much between nodes that its codes do not go straight.
+        bool steep = false;
+    };
+    /// What a tile of the texture was made from.
+    struct Made {
+        std::uint64_t light = 0;  // 0: no backdrop
+        std::uint64_t map = 0;
+        std::uint64_t tone = 0;
+        bool clouded = false;
+        std::array<glm::vec3, 2> offsets_m{};  // of the map's parts
+    };
+    void resize();
+    [[nodiscard]] glm::dvec3 composed(const cloud::CloudMap::Sight& sight, const DeferredAir& air,
+                                      const glm::dvec3& behind_cd_m2,
+                                      const glm::dvec3& direction_enu) const noexcept;
+    void refresh_backdrops(const SkyLight& light, const DeferredAir& air, std::uint64_t revision);
+    void look_up(int tile, const SkyLight& light, const DeferredAir& air) noexcept;
+    void tone_tile(int tile, const SkyLight& light, std::size_t first) noexcept;
+    struct Nodes;
+    void fill_nodes(int tile, Nodes& nodes) const noexcept;
+    void gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRow& out) const noexcept;
+    struct Behind;
+    void show_behind(const Backdrop& backdrop, Behind& behind) const noexcept;
+    [[nodiscard]] bool serves(int tile, std::uint64_t tone_revision) const noexcept;
+
+    cloud::CloudMap map_;
+    bool shown_ = false;
+    bool jumped_ = false;
+    std::vector<glm::vec3> probes_;
+    std::vector<Backdrop> backdrops_;  // of each tile
+    std::vector<Made> made_;
+    std::vector<cloud::ToneLaw> laws_;
+    std::vector<TonedTile> toned_;
+    std::vector<std::vector<float>> texels_;
+    std::vector<cloud::Cone> clouded_;
+    std::vector<int> clouded_tiles_;
+    std::size_t next_backdrop_ = 0;
+    std::uint64_t size_revision_ = 0;
+};
+
+}  // namespace skyig::render

@@ -1,0 +1,82 @@
+#include "render/cloud_pass.h"
+
+#include <array>
+
+namespace skyig::render {
+
+namespace {
+// As in cloud/fetch.glsl.
+constexpr int kUnit = 7;
+constexpr std::array<float, 4> kClear{0.0F, 0.0F, 0.0F, 1.0F};
+}  // namespace
+
+void CloudFetch::set(const gl::Program& program, int map_size) const {
+    // Places -1 and 1 are the middles of the outermost texels.
+    const float across = static_cast<float>(map_size - 1) / (2.0F * static_cast<float>(map_size));
+    program.set(place_, glm::vec4{across, 0.5F, 0.5F * across, 0.25F});
+}
+
+CloudPass::CloudPass(std::size_t screens)
+    : program_("sky/dome.vert", "cloud/dome.frag"),
+      fetch_(program_),
+      clip_(program_.uniform("u_clip_from_mesh")),
+      enu_(program_.uniform("u_enu_from_mesh")),
+      share_(program_.uniform("u_share")),
+      half_size_(program_.uniform("u_half_size_px")),
+      dither_(program_.uniform("u_dither_codes")),
+      over_("sky/dome.vert", "cloud/over.frag"),
+      over_fetch_(over_),
+      over_clip_(over_.uniform("u_clip_from_mesh")),
+      over_enu_(over_.uniform("u_enu_from_mesh")),
+      screens_(screens) {
+    maps_.reserve(screens);
+}
+
+void CloudPass::prepare(const CloudFrame& clouds, bool dither) {
+    const cloud::MapGeometry& geometry = clouds.map().geometry();
+    if (size_revision_ != clouds.size_revision()) {
+        maps_.clear();
+        size_ = geometry.size();
+        for (std::size_t screen = 0; screen < screens_; ++screen) {
+            maps_.emplace_back(gl::TexelFormat::kRgba32F, size_, 2 * size_);
+            maps_.back().fill(kClear);
+        }
+        size_revision_ = clouds.size_revision();
+        fetch_.set(program_, size_);
+        over_fetch_.set(over_, size_);
+    }
+    program_.set(dither_, dither ? 1.0F : 0.0F);
+    for (const TonedTile& toned : clouds.toned()) {
+        const cloud::MapGeometry::Texel corner = geometry.corner(toned.tile);
+        const int row = corner.row + (corner.lower ? size_ : 0);
+        for (std::size_t screen = 0; screen < screens_; ++screen) {
+            if (toned.first == TonedTile::kClear)
+                maps_[screen].fill_part(corner.column, row, cloud::kTile, cloud::kTile, kClear);
+            else
+                maps_[screen].update_part(
+                    corner.column, row, cloud::kTile, cloud::kTile,
+                    clouds.texels(screen).subspan(toned.first, CloudFrame::kTileFloats));
+        }
+    }
+}
+
+void CloudPass::bind(std::size_t screen) const {
+    gl::bind_texture(kUnit, maps_[screen].name());
+}
+
+void CloudPass::use_dome(const Channel& channel, const glm::dmat4& clip_from_mesh,
+                         const glm::dmat4& enu_from_mesh, double share) const {
+    program_.use();
+    program_.set(clip_, glm::mat4{clip_from_mesh});
+    program_.set(enu_, glm::mat4{enu_from_mesh});
+    program_.set(share_, static_cast<float>(share));
+    program_.set(half_size_, 0.5F * glm::vec2{channel.width_px, channel.height_px});
+}
+
+void CloudPass::use_over(const glm::dmat4& clip_from_mesh, const glm::dmat4& enu_from_mesh) const {
+    over_.use();
+    over_.set(over_clip_, glm::mat4{clip_from_mesh});
+    over_.set(over_enu_, glm::mat4{enu_from_mesh});
+}
+
+}  // namespace skyig::render

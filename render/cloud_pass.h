@@ -1,0 +1,55 @@
+// The toned cloud map as textures, one for each screen, and the dome drawn with it where clouds stand.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "render/channel.h"
+#include "render/cloud_frame.h"
+#include "render/gl/program.h"
+#include "render/gl/texture.h"
+
+namespace skyig::render {
+
+/// Uniforms of shaders/cloud/fetch.glsl in one program.
+class CloudFetch {
+  public:
+    explicit CloudFetch(const gl::Program& program) : place_(program.uniform("u_cloud_place")) {}
+    void set(const gl::Program& program, int map_size) const;
+
+  private:
+    int place_;
+};
+
+class CloudPass {
+  public:
+    /// \throws std::runtime_error when the program cannot be made
+    explicit CloudPass(std::size_t screens);
+
+    /// Takes over the tiles that have changed. Textures are made with the first clouds.
+    void prepare(const CloudFrame& clouds, bool dither);
+    /// Binds the screen's map for all programs that fetch it.
+    void bind(std::size_t screen) const;
+    /// Makes the dome's program current. \param share  Dome::share()
+    void use_dome(const Channel& channel, const glm::dmat4& clip_from_mesh, const glm::dmat4& enu_from_mesh,
+                  double share) const;
+    /// The program for clouds over what is drawn already, to be blended with gl::Blend::kOver.
+    void use_over(const glm::dmat4& clip_from_mesh, const glm::dmat4& enu_from_mesh) const;
+
+    [[nodiscard]] int map_size() const noexcept { return size_; }
+
+  private:
+    gl::Program program_;
+    CloudFetch fetch_;
+    int clip_, enu_, share_, half_size_, dither_;
+    gl::Program over_;
+    CloudFetch over_fetch_;
+    int over_clip_, over_enu_;
+    std::vector<gl::Texture> maps_;
+    std::size_t screens_;
+    std::uint64_t size_revision_ = 0;
+    int size_ = 0;
+};
+
+}  // namespace skyig::render

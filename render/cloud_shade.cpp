@@ -1,0 +1,84 @@
+#include "render/cloud_shade.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/cloud/field/shapes.h"
+#include "render/cloud/slab_light.h"
+
+namespace skyig::render {
+
+namespace {
+
+// Of a layer that the eye may be outside of, at the eye: 1 inside its area, 0 beyond the perimeter.
+double part_here(const CloudLayer& cloud) noexcept {
+    if (!cloud.area) return 1.0;
+    const WeatherArea& area = *cloud.area;
+    const double sine = std::sin(area.axis_rad);
+    const double cosine = std::cos(area.axis_rad);
+    const glm::dvec2 along{std::abs(area.centre_m.x * sine + area.centre_m.y * cosine),
+                           std::abs(area.centre_m.x * cosine - area.centre_m.y * sine)};
+    const glm::dvec2 outside = glm::max(along - area.half_size_m, 0.0);
+    const double beyond_m = glm::length(outside) - area.corner_radius_m;
+    if (beyond_m <= 0.0) return 1.0;
+    return area.perimeter_m > 0.0 ? 1.0 - std::min(beyond_m / area.perimeter_m, 1.0) : 0.0;
+}
+
+// A layer with gaps is not as deep in the mean as in its middle.
+double mean_depth_part(double coverage) noexcept {
+    return 0.6 + 0.4 * coverage;
+}
+
+}  // namespace
+
+CloudShade::CloudShade(const Weather& weather, double ground_albedo) noexcept
+    : ground_albedo_(std::clamp(ground_albedo, 0.0, 0.98)) {
+    for (const CloudLayer& cloud : weather.all_clouds()) {
+        const double coverage = std::clamp(cloud.coverage, 0.0, 1.0) * part_here(cloud);
+        if (!(coverage > 0.0) || !(cloud.thickness_m > 0.0)) continue;
+        const cloud::field::Genus& genus = cloud::field::genus_of(cloud.genus);
+        const double extinction = cloud.extinction_per_m > 0.0 ? cloud.extinction_per_m
+                                                               : static_cast<double>(genus.extinction_per_m);
+        // Half of a band's depth is in its layer.
+        layers_[count_++] = {cloud.base_m - 0.5 * cloud.bottom_band_m,
+                             cloud.base_m + cloud.thickness_m + 0.5 * cloud.top_band_m, coverage,
+                             static_cast<float>(extinction * cloud.thickness_m * mean_depth_part(coverage)),
+                             genus.ice ? cloud::field::kIceG : cloud::field::kWaterG};
+    }
+    std::sort(layers_.begin(), layers_.begin() + static_cast<std::ptrdiff_t>(count_),
+              [](const Layer& a, const Layer& b) { return a.base_m > b.base_m; });
+}
+
+CloudShare CloudShade::at(double height_m, double mu0) const noexcept {
+    if (!any()) return {};
+    double direct = 1.0;     // the beam past all cloud so far
+    double scattered = 0.0;  // of the beam, downward below the layers so far
+    double sky = 1.0;
+    double returned = 0.0;  // by the layers so far, of even light from below
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Layer& layer = layers_[i];
+        const double above = std::clamp((layer.top_m - height_m) / (layer.top_m - layer.base_m), 0.0, 1.0);
+        if (!(above > 0.0)) continue;
+        const cloud::Slab slab{static_cast<float>(above) * layer.depth, layer.g, 1.0F};
+        const cloud::SlabFluxes<float> beam =
+            cloud::slab_fluxes(slab, static_cast<float>(std::max(mu0, 0.0)));
+        const cloud::SlabFluxes<float> even = cloud::slab_fluxes_diffuse(slab);
+        const double reflected = layer.coverage * static_cast<double>(even.reflected);
+        const double passed = 1.0 - layer.coverage * (1.0 - static_cast<double>(even.transmitted));
+        const double to_and_fro = 1.0 / (1.0 - returned * reflected);
+        // The beam's light that the layer sends up comes back from those above.
+        const double up = layer.coverage * direct * static_cast<double>(beam.reflected);
+        const double new_direct = direct * (1.0 - layer.coverage * (1.0 - static_cast<double>(beam.direct)));
+        const double from_beam =
+            layer.coverage * direct * static_cast<double>(beam.transmitted - beam.direct);
+        scattered = from_beam + (scattered + returned * up) * to_and_fro * passed;
+        sky *= to_and_fro * passed;
+        returned = reflected + passed * passed * returned * to_and_fro;
+        direct = new_direct;
+    }
+    const double ground = 1.0 / (1.0 - returned * ground_albedo_);
+    return {static_cast<float>((direct + scattered) * ground), static_cast<float>(direct),
+            static_cast<float>(sky * ground)};
+}
+
+}  // namespace skyig::render

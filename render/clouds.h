@@ -1,0 +1,24 @@
+// Who makes the clouds of a scene's weather for the renderer.
+#pragma once
+
+#include <memory>
+
+#include "render/cloud/cloud_light.h"
+#include "render/cloud/cloud_maker.h"
+#include "render/scene.h"
+
+namespace skyig::render {
+
+class LightTables;
+struct Plan;
+struct SkyLight;
+
+struct Clouds {
+    /// Nobody: clouds are not drawn.
+    std::unique_ptr<cloud::CloudMaker> maker;
+    /// What shines on them in a frame; none: what it was before.
+    void (*light)(const Scene& scene, const Plan& plan, const LightTables& tables, const SkyLight& sky,
+                  cloud::CloudLight& on_clouds) = nullptr;
+};
+
+}  // namespace skyig::render

@@ -1,0 +1,89 @@
+#include "render/wet_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/precipitation/streak_field.h"
+#include "render/sky/sea_waves.h"
+
+namespace skyig::render {
+
+namespace {
+
+using precipitation::Ripples;
+
+double rain_mm_h(const Scene& scene) {
+    double rate_mm_h = 0.0;
+    for (const Precipitation& falling : scene.weather.all_precipitations()) {
+        const bool drops = falling.kind == Precipitation::Kind::kRain ||
+                           falling.kind == Precipitation::Kind::kDrizzle ||
+                           falling.kind == Precipitation::Kind::kSleet;
+        if (drops && precipitation::falls_on(falling, scene.eye)) rate_mm_h += falling.rate_mm_h;
+    }
+    return rate_mm_h;
+}
+
+glm::vec2 within_tile(const glm::dvec2& m) {
+    return glm::vec2{m / Ripples::kSide_m - glm::floor(m / Ripples::kSide_m)};
+}
+
+}  // namespace
+
+WetPass::WetPass()
+    : program_("sky/deferred.vert", "precipitation/wet.frag"),
+      triangle_({}, 3),
+      tone_(program_, true),
+      centre_(program_.uniform("u_far_centre")),
+      right_(program_.uniform("u_far_right")),
+      up_(program_.uniform("u_far_up")),
+      size_(program_.uniform("u_size_px")),
+      film_(program_.uniform("u_film")),
+      extinction_(program_.uniform("u_extinction_per_m")),
+      anchor_(program_.uniform("u_tile_at_eye")),
+      pixel_(program_.uniform("u_pixel_rad")),
+      sky_(gl::TexelFormat::kRgba32F, kColumns + 1, kRows),
+      slopes_(gl::TexelFormat::kRgba32F, Ripples::kCells + 1, Ripples::kCells + 1),
+      texels_(std::size_t{kColumns + 1} * kRows * 4) {
+    program_.set(program_.uniform("u_sky_size"), glm::vec2{kColumns + 1, kRows});
+    program_.set(program_.uniform("u_tile_texels"), static_cast<float>(Ripples::kCells + 1));
+    program_.set(program_.uniform("u_tile_m"), static_cast<float>(Ripples::kSide_m));
+    slopes_.update(ripples_.slopes());
+}
+
+void WetPass::prepare(const Scene& scene, const SkyLight& light) {
+    std::size_t out = 0;
+    for (int row = 0; row < kRows; ++row) {
+        const double elevation_rad = std::asin(static_cast<double>(row) / (kRows - 1));
+        for (int column = 0; column <= kColumns; ++column, out += 4) {
+            const double azimuth_rad = 2.0 * std::numbers::pi * (column % kColumns) / kColumns;
+            const glm::vec3 rgb = light.smooth_rgb_cd_m2(elevation_rad, azimuth_rad, Side::kSky);
+            std::copy_n(&rgb.x, 3, texels_.begin() + static_cast<std::ptrdiff_t>(out));
+        }
+    }
+    sky_.update(texels_);
+    if (ripples_.advance(scene.time_s, rain_mm_h(scene))) slopes_.update(ripples_.slopes());
+    program_.set(film_, static_cast<float>(light.film));
+    program_.set(extinction_, static_cast<float>(light.near_extinction_per_m));
+    program_.set(anchor_, within_tile(sky::sea_anchor(scene.eye).eye_m));
+}
+
+void WetPass::draw(const Channel& channel, const ChannelView& view, const shaders32::ToneParameters& tone,
+                   const DeferredInput& input) const {
+    tone_.set(program_, tone);
+    const ImagePlane p = image_plane(view.frustum);
+    const glm::dmat3 enu_from_view = glm::transpose(view.view_from_enu) * input.far_m;
+    program_.use();
+    program_.set(centre_, glm::vec3{enu_from_view *
+                                    glm::dvec3{0.5 * (p.left + p.right), 0.5 * (p.bottom + p.top), -1.0}});
+    program_.set(right_, glm::vec3{enu_from_view * glm::dvec3{0.5 * (p.right - p.left), 0.0, 0.0}});
+    program_.set(up_, glm::vec3{enu_from_view * glm::dvec3{0.0, 0.5 * (p.top - p.bottom), 0.0}});
+    program_.set(size_, glm::vec2{channel.width_px, channel.height_px});
+    program_.set(pixel_, static_cast<float>(pixel_angle_rad(channel, view.frustum)));
+    gl::bind_texture(0, input.depth_texture);
+    gl::bind_texture(1, sky_.name());
+    gl::bind_texture(2, slopes_.name());
+    triangle_.draw_strip(3);
+}
+
+}  // namespace skyig::render

@@ -1,0 +1,39 @@
+#include "server/weather/layer_state.h"
+
+#include <cmath>
+
+namespace skyig::server::weather {
+
+LayerState mix(Family family, const LayerState& from, const LayerState& to, double t) noexcept {
+    const auto between = [&](double LayerState::*member) {
+        return from.*member == to.*member ? to.*member : std::lerp(from.*member, to.*member, t);
+    };
+    LayerState mixed;
+    mixed.base_m = between(&LayerState::base_m);
+    mixed.thickness_m = between(&LayerState::thickness_m);
+    mixed.bottom_band_m = between(&LayerState::bottom_band_m);
+    mixed.top_band_m = between(&LayerState::top_band_m);
+    mixed.coverage = between(&LayerState::coverage);
+    mixed.extinction_per_m = between(&LayerState::extinction_per_m);
+    if (family == Family::kCloud && (from.extinction_per_m == 0.0 || to.extinction_per_m == 0.0))
+        mixed.extinction_per_m = (t < 0.5 ? from : to).extinction_per_m;
+    mixed.rate_mm_h = between(&LayerState::rate_mm_h);
+    mixed.severity = between(&LayerState::severity);
+    mixed.bottom_scud = between(&LayerState::bottom_scud);
+    mixed.top_scud = between(&LayerState::top_scud);
+    mixed.flashes_per_min = between(&LayerState::flashes_per_min);
+    return mixed;
+}
+
+LayerState nothing_of(Family family, const LayerState& state) noexcept {
+    LayerState nothing = state;
+    nothing.flashes_per_min = 0.0;
+    if (family == Family::kCloud) {
+        nothing.coverage = 0.0;
+    } else {
+        nothing.extinction_per_m = nothing.rate_mm_h = 0.0;
+    }
+    return nothing;
+}
+
+}  // namespace skyig::server::weather

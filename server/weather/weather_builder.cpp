@@ -1,0 +1,315 @@
+#include "server/weather/weather_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "render/weather_area.h"
+#include "server/start_weather/layers.h"
+#include "server/weather/day_keyframes.h"
+
+namespace skyig::server::weather {
+namespace {
+
+using render::CloudGenus;
+using render::CloudLayer;
+using render::Obscurant;
+using render::Precipitation;
+using render::WeatherArea;
+
+constexpr glm::dvec2 kEye{0.0};
+/// The thickest air that the renderer's tables are made for.
+constexpr double kThickestAir_m = 1000.0;
+/// What the air dims beyond it lies as haze does, which thins by e every 1200 m.
+constexpr double kThickTop_m = 300.0;
+constexpr double kThickBand_m = 1800.0;
+/// The eye's velocity is that over so long a time; faster, it was put elsewhere.
+constexpr double kEyeTime_s = 0.25;
+constexpr double kFastestEye_m_s = 10'000.0;
+/// Every four seconds another.
+constexpr double kLooksADay = 21'600.0;
+
+static_assert(
+    static_cast<int>(config::CloudModel::kAuto) == static_cast<int>(render::CloudModel::kAuto) &&
+        static_cast<int>(config::CloudModel::kLayer) == static_cast<int>(render::CloudModel::kLayer) &&
+        static_cast<int>(config::CloudModel::kImpostor) == static_cast<int>(render::CloudModel::kImpostor) &&
+        static_cast<int>(config::CloudModel::kVolume) == static_cast<int>(render::CloudModel::kVolume),
+    "one order of cloud models in settings and scene");
+
+/// Unlike layers have unlike clouds; the same layer has the same ones in every daemon.
+std::uint32_t seed_of(const LayerKey& key) noexcept {
+    std::uint32_t seed = key.place * 2654435761U ^ (static_cast<std::uint32_t>(key.family) << 8U) ^ key.kind;
+    seed ^= seed >> 16U;
+    seed *= 0x7feb352dU;
+    seed ^= seed >> 15U;
+    return seed;
+}
+
+double weight_at_eye(const std::optional<WeatherArea>& area) noexcept {
+    return area ? render::area_weight(*area, kEye) : 1.0;
+}
+
+/// 1 from base to top, falling to 0 over the bands.
+double weight_at_height(const LayerState& state, double height_m) noexcept {
+    const double top_m = state.base_m + state.thickness_m;
+    const double outside_m = std::max({state.base_m - height_m, height_m - top_m, 0.0});
+    const double band_m = height_m < state.base_m ? state.bottom_band_m : state.top_band_m;
+    if (outside_m <= 0.0) return 1.0;
+    return outside_m < band_m ? 1.0 - outside_m / band_m : 0.0;
+}
+
+Obscurant obscurant_of(const ShownLayer& layer, Obscurant::Kind kind, double time_s,
+                       const std::optional<WeatherArea>& area) noexcept {
+    const LayerState& state = layer.state;
+    Obscurant obscurant;
+    obscurant.kind = kind;
+    obscurant.base_m = state.base_m;
+    obscurant.top_m = state.base_m + state.thickness_m;
+    obscurant.bottom_band_m = state.bottom_band_m;
+    obscurant.top_band_m = state.top_band_m;
+    obscurant.extinction_per_m = state.extinction_per_m * layer.uncovered;
+    obscurant.drift_m = layer.drift.at(time_s);
+    obscurant.seed = seed_of(layer.told.key);
+    obscurant.area = area;
+    return obscurant;
+}
+
+}  // namespace
+
+WeatherSettings weather_settings(const config::Weather& weather) noexcept {
+    WeatherSettings settings{
+        weather.transition_s, weather.elevation_m, static_cast<render::CloudModel>(weather.clouds), {}};
+    if (weather.driver == config::WeatherDriver::kKeyframes) settings.keyframes = weather.keyframes;
+    return settings;
+}
+
+WeatherBuilder::WeatherBuilder(const WeatherSettings& settings)
+    : settings_(settings), ramps_(settings.transition_s) {}
+
+void WeatherBuilder::build(const world::World& world, render::Scene& scene) {
+    render::Weather& weather = scene.weather;
+    const bool at_once = jumped(world, scene.time_s);
+    const EyePlane plane(scene.eye);
+    if (settings_.keyframes) {
+        // In steps, so that tables made of a look are finished before the next.
+        const double day = solar_day(world.clock().utc().second_of_day(), scene.eye.longitude_deg);
+        const config::Keyframe look =
+            look_at(*settings_.keyframes, std::floor(day * kLooksADay) / kLooksADay);
+        put_look(look, scene);
+        cloud_cover_ = look.cloud_cover;
+    }
+    const double contrast = scene.air.visibility_contrast;
+    const Meaning meaning{-std::log(contrast) / std::max(scene.air.visibility_m, 1.0), contrast,
+                          settings_.elevation_m, scene.air.temperature_c};
+    ramps_.advance(gatherer_.gather(world, plane, meaning), scene.time_s, at_once);
+    for (ShownLayer& layer : ramps_.shown())
+        layer.drift.set_wind(wind_of(layer.told, world.air()), scene.time_s);
+    left_out_ = gatherer_.left_out();
+    settle_air(scene, at_once);
+    rain_mm_h_ = 0.0;
+    show(plane, scene, weather);
+    soak(scene.time_s, at_once);
+    weather.wind_m_s = wind_at_eye(world, plane, scene.eye);
+    move_eye(scene.eye, scene.time_s, at_once, weather);
+    time_s_ = scene.time_s;
+}
+
+bool WeatherBuilder::jumped(const world::World& world, double time_s) noexcept {
+    const bool reset = world.resets() != resets_;
+    resets_ = world.resets();
+    return reset || !time_s_ || time_s < *time_s_ || time_s - *time_s_ > world::World::kClockJump_s;
+}
+
+void WeatherBuilder::settle_air(render::Scene& scene, bool at_once) noexcept {
+    render::Air& air = scene.air;
+    const double depth = -std::log(air.visibility_contrast);
+    const double told_per_m = depth / std::max(air.visibility_m, 1.0);
+    if (at_once) {
+        air_per_m_.set(told_per_m);
+    } else {
+        air_per_m_.aim(told_per_m, *time_s_, settings_.transition_s);
+    }
+    // A settled visibility goes through untouched.
+    if (!air_per_m_.settled(scene.time_s, settings_.transition_s))
+        air.visibility_m = depth / air_per_m_.at(scene.time_s, settings_.transition_s);
+    if (!air.model_enabled || air.visibility_m >= kThickestAir_m) return;
+    Obscurant& fog = scene.weather.obscurants[scene.weather.obscurant_count++];
+    fog = {};
+    fog.kind = Obscurant::Kind::kFog;
+    fog.top_m = settings_.elevation_m + kThickTop_m;
+    fog.top_band_m = kThickBand_m;
+    fog.extinction_per_m = depth / std::max(air.visibility_m, 5.0) - depth / kThickestAir_m;
+    air.visibility_m = kThickestAir_m;
+}
+
+void WeatherBuilder::move_eye(const render::Eye& eye, double time_s, bool at_once,
+                              render::Weather& weather) noexcept {
+    const ephemeris::Geodetic place{eye.latitude_deg, eye.longitude_deg, eye.height_m};
+    const glm::dvec3 ecef_m = world::ecef_of(place);
+    const double step_s = time_s - time_s_.value_or(time_s);
+    const glm::dvec3 moved_m = ecef_m - std::exchange(eye_ecef_m_, ecef_m);
+    if (at_once || glm::length(moved_m) > kFastestEye_m_s * step_s) {
+        eye_velocity_ecef_m_s_ = glm::dvec3{0.0};
+        eye_moves_ = false;
+    } else if (step_s > 0.0) {
+        const double part = std::exchange(eye_moves_, true) ? -std::expm1(-step_s / kEyeTime_s) : 1.0;
+        eye_velocity_ecef_m_s_ += part * (moved_m / step_s - eye_velocity_ecef_m_s_);
+    }
+    const auto along = [&](const glm::dvec3& enu) {
+        return glm::dot(eye_velocity_ecef_m_s_, world::ecef_from_enu(place, enu));
+    };
+    weather.eye_velocity_m_s = {along({1.0, 0.0, 0.0}), along({0.0, 1.0, 0.0}), along({0.0, 0.0, 1.0})};
+}
+
+void WeatherBuilder::show(const EyePlane& plane, const render::Scene& scene,
+                          render::Weather& weather) noexcept {
+    const std::span<ShownLayer> shown = ramps_.shown();
+    std::array<std::optional<WeatherArea>, Ramps::kMost> areas;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        order_[i] = static_cast<std::uint8_t>(i);
+        distance_m_[i] = 0.0;
+        if (!shown[i].told.area) continue;
+        areas[i] = plane.place(*shown[i].told.area);
+        distance_m_[i] = std::max(render::area_distance_m(*areas[i], kEye) - areas[i]->perimeter_m, 0.0);
+    }
+    std::sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(shown.size()),
+              [&](std::uint8_t a, std::uint8_t b) {
+                  if (distance_m_[a] != distance_m_[b]) return distance_m_[a] < distance_m_[b];
+                  return shown[a].told.key.place < shown[b].told.key.place ||
+                         (shown[a].told.key.place == shown[b].told.key.place && a < b);
+              });
+    for (std::size_t n = 0; n < shown.size(); ++n) {
+        const ShownLayer& layer = shown[order_[n]];
+        const std::optional<WeatherArea>& area = areas[order_[n]];
+        switch (layer.told.key.family) {
+            case Family::kCloud:
+                show_cloud(layer, scene, area, weather);
+                break;
+            case Family::kObscurant:
+                show_obscurant(layer, scene.time_s, area, weather);
+                break;
+            case Family::kFalling:
+                show_falling(layer, scene, area, weather);
+                break;
+        }
+    }
+}
+
+void WeatherBuilder::show_cloud(const ShownLayer& layer, const render::Scene& scene,
+                                const std::optional<WeatherArea>& area, render::Weather& weather) noexcept {
+    const LayerState& state = layer.state;
+    const double coverage = std::min(state.coverage * layer.uncovered * cloud_cover_, 1.0);
+    if (coverage <= 0.0) return;
+    if (weather.cloud_count == render::Weather::kMaxClouds) {
+        ++left_out_;
+        return;
+    }
+    if (state.flashes_per_min > 0.0 && weather.lightning_count < render::Weather::kMaxLightnings) {
+        weather.lightnings[weather.lightning_count++] = {weather.cloud_count, state.flashes_per_min,
+                                                         seed_of(layer.told.key)};
+    }
+    CloudLayer& cloud = weather.clouds[weather.cloud_count++];
+    cloud.genus = static_cast<CloudGenus>(layer.told.key.kind);
+    cloud.model = settings_.clouds;
+    cloud.base_m = state.base_m;
+    cloud.thickness_m = state.thickness_m;
+    cloud.bottom_band_m = state.bottom_band_m;
+    cloud.top_band_m = state.top_band_m;
+    cloud.coverage = coverage;
+    cloud.extinction_per_m = state.extinction_per_m;
+    cloud.drift_m = layer.drift.at(scene.time_s);
+    cloud.age_s = scene.time_s;
+    cloud.bottom_scud = state.bottom_scud;
+    cloud.top_scud = state.top_scud;
+    cloud.severity = state.severity;
+    cloud.seed = seed_of(layer.told.key);
+    cloud.area = area;
+}
+
+void WeatherBuilder::show_obscurant(const ShownLayer& layer, double time_s,
+                                    const std::optional<WeatherArea>& area,
+                                    render::Weather& weather) noexcept {
+    Obscurant made = obscurant_of(layer, static_cast<Obscurant::Kind>(layer.told.key.kind), time_s, area);
+    made.coverage = layer.state.coverage;
+    if (made.extinction_per_m <= 0.0) return;
+    if (weather.obscurant_count == render::Weather::kMaxObscurants) {
+        ++left_out_;
+        return;
+    }
+    weather.obscurants[weather.obscurant_count++] = made;
+}
+
+void WeatherBuilder::show_falling(const ShownLayer& layer, const render::Scene& scene,
+                                  const std::optional<WeatherArea>& area, render::Weather& weather) noexcept {
+    const auto kind = static_cast<Precipitation::Kind>(layer.told.key.kind);
+    const bool snow = kind == Precipitation::Kind::kSnow;
+    const Obscurant made =
+        obscurant_of(layer, snow ? Obscurant::Kind::kSnow : Obscurant::Kind::kRain, scene.time_s, area);
+    if (made.extinction_per_m > 0.0) {
+        if (weather.obscurant_count == render::Weather::kMaxObscurants) {
+            ++left_out_;
+        } else {
+            weather.obscurants[weather.obscurant_count++] = made;
+        }
+    }
+    const double below_eye_mm_h = layer.state.rate_mm_h * layer.uncovered * weight_at_eye(area);
+    if (!snow && kind != Precipitation::Kind::kHail) rain_mm_h_ += below_eye_mm_h;
+    const double rate_mm_h = below_eye_mm_h * weight_at_height(layer.state, scene.eye.height_m);
+    if (rate_mm_h <= 0.0) return;
+    // One of each kind: there is room for all.
+    const auto all = std::span(weather.precipitations).first(weather.precipitation_count);
+    const auto same =
+        std::find_if(all.begin(), all.end(), [kind](const Precipitation& p) { return p.kind == kind; });
+    if (same != all.end()) {
+        same->rate_mm_h += rate_mm_h;
+        same->top_m = std::max(same->top_m, made.top_m);
+        return;
+    }
+    weather.precipitations[weather.precipitation_count++] = {kind, rate_mm_h, made.top_m};
+}
+
+void WeatherBuilder::soak(double time_s, bool at_once) noexcept {
+    // This much rain keeps all of the land wet; a millimetre makes it so.
+    constexpr double kKeepsWet_mm_h = 1.0;
+    constexpr double kSoaks_mm = 1.0;
+    constexpr double kDries_s = 1800.0;
+    const double kept = std::min(rain_mm_h_ / kKeepsWet_mm_h, 1.0);
+    if (at_once) {
+        wet_ = kept;
+        return;
+    }
+    const double step_s = time_s - *time_s_;
+    if (kept > wet_) {
+        wet_ = std::min(kept, wet_ + rain_mm_h_ / 3600.0 * step_s / kSoaks_mm);
+    } else {
+        wet_ = kept + (wet_ - kept) * std::exp(-step_s / kDries_s);
+    }
+}
+
+glm::dvec2 WeatherBuilder::wind_of(const ToldLayer& layer, const world::AirState& air) const noexcept {
+    if (layer.wind_m_s) return *layer.wind_m_s;
+    return wind_gain(layer.state.base_m - settings_.elevation_m) *
+           wind_towards_m_s(air.wind_horizontal_m_s, air.wind_from_deg);
+}
+
+glm::dvec3 WeatherBuilder::wind_at_eye(const world::World& world, const EyePlane& plane,
+                                       const render::Eye& eye) const noexcept {
+    const world::AirState& air = world.air();
+    glm::dvec2 wind = wind_gain(eye.height_m - settings_.elevation_m) *
+                      wind_towards_m_s(air.wind_horizontal_m_s, air.wind_from_deg);
+    glm::dvec2 sum{0.0};
+    double weight_sum = 0.0, largest = 0.0;
+    for (const ToldLayer& layer : gatherer_.layers()) {
+        if (!layer.wind_m_s) continue;
+        const double weight = layer.uncovered * weight_at_height(layer.state, eye.height_m) *
+                              (layer.area ? render::area_weight(plane.place(*layer.area), kEye) : 1.0);
+        sum += weight * *layer.wind_m_s;
+        weight_sum += weight;
+        largest = std::max(largest, weight);
+    }
+    if (weight_sum > 0.0) wind += largest * (sum / weight_sum - wind);
+    return {wind.x, wind.y, air.wind_vertical_m_s};
+}
+
+}  // namespace skyig::server::weather

@@ -1,0 +1,116 @@
+// What is left of light under clouds.
+#include "render/cloud_shade.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <initializer_list>
+
+#include "render/cloud/slab_light.h"
+#include "tests/render/cloud/lit_tables.h"
+
+namespace skyig::render {
+namespace {
+
+CloudLayer layer(double coverage, double base_m, double thickness_m, double optical_depth) {
+    CloudLayer cloud;
+    cloud.genus = CloudGenus::kStratus;
+    cloud.base_m = base_m;
+    cloud.thickness_m = thickness_m;
+    cloud.coverage = coverage;
+    cloud.extinction_per_m = optical_depth / thickness_m;
+    return cloud;
+}
+
+Weather weather_of(std::initializer_list<CloudLayer> layers) {
+    Weather weather;
+    for (const CloudLayer& cloud : layers)
+        weather.clouds[weather.cloud_count++] = cloud;
+    return weather;
+}
+
+// (2 + 3 mu0) / (4 + 3 (1 - g) tau), Eddington: 0.29 and 0.20 for depth 30.
+TEST(CloudShade, UnderAnOvercastItIsAsDarkAsEddingtonSays) {
+    const CloudShade shade(weather_of({layer(1.0, 1000.0, 500.0, 30.0)}), 0.0);
+    EXPECT_NEAR(shade.at(0.0, 1.0).beam, 0.29F, 0.015F);
+    EXPECT_NEAR(shade.at(0.0, 0.5).beam, 0.20F, 0.015F);
+    EXPECT_LT(shade.at(0.0, 1.0).direct, 1e-6F);
+    EXPECT_EQ(shade.at(2000.0, 1.0).beam, 1.0F);
+}
+
+TEST(CloudShade, WithoutCoverageNothingChangesBitForBit) {
+    for (const double coverage : {0.0, -1.0}) {
+        const CloudShade shade(weather_of({layer(coverage, 1000.0, 500.0, 30.0)}), 0.2);
+        EXPECT_FALSE(shade.any());
+        EXPECT_EQ(shade.at(0.0, 0.3).beam, 1.0F);
+    }
+    Scene scene;
+    scene.sun.direction_enu = {0.0, 0.6, 0.8};
+    tests::LitTables lit(scene);
+    const SkyLight clear = lit.sky;
+    Scene clouded = scene;
+    clouded.weather = weather_of({layer(0.0, 1000.0, 500.0, 30.0)});
+    lit.follow(clouded);
+    for (const double elevation : {-1.0, -0.01, 0.01, 1.0})
+        EXPECT_EQ(clear.rgb_cd_m2(elevation, 1.0, Side::kByElevation),
+                  lit.sky.rgb_cd_m2(elevation, 1.0, Side::kByElevation));
+}
+
+TEST(CloudShade, GroundBelowIsAsDarkAsItsLight) {
+    Scene scene;
+    scene.eye.height_m = 100.0;
+    scene.sun.direction_enu = {0.0, 0.6, 0.8};
+    tests::LitTables lit(scene);
+    const SkyLight clear = lit.sky;
+    scene.weather = weather_of({layer(1.0, 1000.0, 500.0, 30.0)});
+    lit.follow(scene);
+    const SkyLight& under = lit.sky;
+    const auto down = [](const SkyLight& light) { return light.rgb_cd_m2(-1.2, 0.0, Side::kByElevation).y; };
+    const float share = down(under) / down(clear);
+    std::printf("ground under depth 30: %.3f of the clear day's\n", static_cast<double>(share));
+    EXPECT_NEAR(share, CloudShade(scene.weather, 0.1).at(0.0, 0.8).beam, 0.05F);
+    // No edge at the horizon.
+    const auto at = [&](double above_rad) { return under.sun.clouded.share(above_rad); };
+    EXPECT_NEAR(at(1e-9), at(-1e-9), 1e-5F);
+}
+
+TEST(CloudShade, IsContinuousInHeightCoverageAndDepth) {
+    const auto at = [](double coverage, double depth, double height_m) {
+        return CloudShade(
+                   weather_of({layer(coverage, 1000.0, 300.0, depth), layer(0.5, 4000.0, 1000.0, 8.0)}), 0.2)
+            .at(height_m, 0.6)
+            .beam;
+    };
+    float last = at(1.0, 20.0, 900.0);
+    for (int i = 1; i <= 800; ++i) {
+        const float now = at(1.0, 20.0, 900.0 + 0.5 * i);
+        ASSERT_LT(std::abs(now - last), 0.02F) << i;
+        last = now;
+    }
+    EXPECT_NEAR(at(1e-6, 20.0, 0.0), at(0.0, 20.0, 0.0), 1e-4F);
+    EXPECT_NEAR(at(1.0, 1e-6, 0.0), at(0.0, 20.0, 0.0), 1e-4F);
+    EXPECT_LT(at(1.0, 20.0, 0.0), at(0.5, 20.0, 0.0));
+    EXPECT_LT(at(0.5, 20.0, 0.0), at(0.0, 20.0, 0.0));
+}
+
+TEST(CloudShade, LayersOneOverAnotherPassWhatOneAsDeepDoes) {
+    const CloudShade two(weather_of({layer(1.0, 1000.0, 300.0, 20.0), layer(1.0, 3000.0, 300.0, 20.0)}), 0.0);
+    const CloudShade one(weather_of({layer(1.0, 1000.0, 300.0, 40.0)}), 0.0);
+    EXPECT_NEAR(two.at(0.0, 0.7).beam / one.at(0.0, 0.7).beam, 1.0F, 0.1F);
+    EXPECT_NEAR(two.at(0.0, 0.7).sky / one.at(0.0, 0.7).sky, 1.0F, 0.1F);
+    // Snow sends light up that clouds send back.
+    const CloudShade over_snow(weather_of({layer(1.0, 1000.0, 300.0, 40.0)}), 0.8);
+    EXPECT_GT(over_snow.at(0.0, 0.7).beam, 1.8F * one.at(0.0, 0.7).beam);
+}
+
+TEST(CloudShade, AnAreaElsewhereDimsNothing) {
+    CloudLayer storm = layer(1.0, 1000.0, 3000.0, 100.0);
+    storm.area = WeatherArea{{30000.0, 0.0}, 0.0, {5000.0, 5000.0}, 1000.0, 2000.0};
+    EXPECT_FALSE(CloudShade(weather_of({storm}), 0.1).any());
+    storm.area->centre_m = {3000.0, 0.0};
+    EXPECT_TRUE(CloudShade(weather_of({storm}), 0.1).any());
+}
+
+}  // namespace
+}  // namespace skyig::render

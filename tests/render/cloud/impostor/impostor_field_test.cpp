@@ -1,0 +1,342 @@
+#include "render/cloud/impostor/impostor_field.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "tests/render/cloud/impostor/moments.h"
+#include "tests/support/allocation_count.h"
+
+namespace skyig::render::cloud::impostor {
+namespace {
+
+class Sky {
+  public:
+    explicit Sky(const ImpostorSettings& settings = {}) : clouds(settings) {}
+
+    void show(const Moment& moment) {
+        clouds.update(moment);
+        freeze(moment.eye);
+    }
+    void freeze(const Eye& eye) {
+        const ImpostorClouds* layer = &clouds;
+        field.freeze({&layer, 1}, light, eye);
+    }
+    [[nodiscard]] CloudSample at(const glm::vec3& way, const CloudRange& range = {},
+                                 float ray_rad = 1e-3F) const {
+        const CloudRay ray{way};
+        CloudSample sample;
+        field.march({&ray, 1}, range, ray_rad, {&sample, 1});
+        return sample;
+    }
+
+    ImpostorClouds clouds;
+    ImpostorField field;
+    CloudLight light = day_light();
+};
+
+ImpostorSettings few_cells() {
+    ImpostorSettings settings;
+    settings.cells = 16;
+    settings.atlas.size = {1024, 1024};
+    settings.atlas.pictures = 512;
+    return settings;
+}
+
+/// The clouds' own particles met one by one: what pictures are to look like.
+class Truth {
+  public:
+    Truth(const Sky& sky, const Eye& eye) : sky_(&sky) {
+        const auto range = static_cast<float>(sky.clouds.range_m());
+        for (const Cloud& cloud : sky.clouds.clouds()) {
+            const glm::vec3 middle{sky.clouds.middle_m(cloud, eye)};
+            const float distance = glm::length(middle);
+            if (cloud.particles == 0 || distance >= range) continue;
+            auto one = std::make_unique<One>();
+            one->shaded.resize(cloud.particles);
+            shade(sky.clouds.particles(cloud), sky.clouds.lit(cloud), sky.clouds.shading(), middle,
+                  one->shaded);
+            lay_out(one->shaded, one->spheres);
+            one->middle_m = middle;
+            one->distance_m = distance;
+            one->bound_m = cloud.bound_m;
+            const float s = std::clamp((distance / range - 0.85F) / 0.15F, 0.0F, 1.0F);
+            one->part = 1.0F - s * s * (3.0F - 2.0F * s);
+            clouds_.push_back(std::move(one));
+        }
+        std::sort(clouds_.begin(), clouds_.end(),
+                  [](const auto& a, const auto& b) { return a->distance_m < b->distance_m; });
+    }
+
+    [[nodiscard]] CloudSample at(const glm::vec3& ray) const {
+        const CloudLight::At light = sky_->light.at(1350.0);
+        CloudSample sample;
+        for (const auto& cloud : clouds_) {
+            const float along = glm::dot(ray, cloud->middle_m);
+            const float beside2 = cloud->distance_m * cloud->distance_m - along * along;
+            if (along < -cloud->bound_m || beside2 > cloud->bound_m * cloud->bound_m) continue;
+            const Texel texel = meet(cloud->shaded, cloud->spheres, ray, {});
+            sample.light_cd_m2 +=
+                sample.transmittance * cloud->part *
+                (texel.v[kSunlight] * light.beam_lx[CloudLight::kSun] +
+                 texel.v[kFromAbove] * light.above_cd_m2 + texel.v[kFromBelow] * light.below_cd_m2);
+            sample.transmittance *= 1.0F - cloud->part * texel.v[kOpacity];
+        }
+        return sample;
+    }
+
+  private:
+    struct One {
+        std::vector<Shaded> shaded;
+        Spheres spheres;
+        glm::vec3 middle_m{0.0F};
+        float distance_m = 0.0F;
+        float bound_m = 0.0F;
+        float part = 1.0F;
+    };
+    const Sky* sky_;
+    std::vector<std::unique_ptr<One>> clouds_;
+};
+
+/// Root mean square of the difference in display codes, over rays that see cloud.
+double rms_codes(const Sky& sky, const Eye& eye, std::size_t count) {
+    const Truth truth(sky, eye);
+    double squares = 0.0;
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 ray = spread_ray(i, count, 0.03, 0.9).direction_enu;
+        if (!beside_sun({ray})) continue;
+        const CloudSample direct = truth.at(ray);
+        const CloudSample drawn = sky.at(ray, {}, 1e-4F);
+        if (direct.transmittance > 0.999F && drawn.transmittance > 0.999F) continue;
+        const double difference = code(drawn) - code(direct);
+        squares += difference * difference;
+        ++seen;
+    }
+    EXPECT_GT(seen, count / 10);
+    return std::sqrt(squares / static_cast<double>(seen));
+}
+
+TEST(ImpostorField, LooksLikeTheParticlesThatItStandsFor) {
+    Sky sky(few_cells());
+    Moment moment = fair_weather();
+    sky.show(moment);
+    const double fresh = rms_codes(sky, moment.eye, 4000);
+    // Half a minute past the clouds at 100 m/s, at 30 Hz.
+    double worst = 0.0;
+    for (int frame = 1; frame <= 900; ++frame) {
+        moment.time_s += 1.0 / 30.0;
+        moment.eye = moved_north(moment.eye, 100.0 / 30.0);
+        sky.clouds.update(moment);
+        if (frame % 300 != 0) continue;
+        sky.freeze(moment.eye);
+        worst = std::max(worst, rms_codes(sky, moment.eye, 4000));
+    }
+    std::printf("impostors against particles: %.2f / 255 rms when drawn, %.2f in flight at 100 m/s\n", fresh,
+                worst);
+    RecordProperty("rms_codes_fresh", std::to_string(fresh));
+    RecordProperty("rms_codes_in_flight", std::to_string(worst));
+    EXPECT_LE(fresh, 3.0);
+    EXPECT_LE(worst, 3.0);
+}
+
+TEST(ImpostorField, MeetsNothingWhereThereIsNothing) {
+    Sky sky(few_cells());
+    sky.show(fair_weather(0.0));
+    EXPECT_EQ(sky.field.cloud_count(), 0U);
+    for (std::size_t i = 0; i < 1000; ++i)
+        EXPECT_EQ(sky.at(spread_ray(i, 1000, -1.0, 1.0).direction_enu), CloudSample{});
+    // And below the horizon, where the ground ends rays before clouds on the far side.
+    sky.show(fair_weather(0.9));
+    for (std::size_t i = 0; i < 1000; ++i)
+        EXPECT_EQ(sky.at(spread_ray(i, 1000, -1.0, -0.05).direction_enu), CloudSample{});
+}
+
+TEST(ImpostorField, KeepsToTheAreaOfItsLayer) {
+    Sky sky(few_cells());
+    Moment moment = fair_weather(0.9);
+    WeatherArea area;
+    area.centre_m = {0.0, 6000.0};
+    area.corner_radius_m = 3000.0;
+    moment.layer.area = area;
+    sky.show(moment);
+    double north = 1.0;
+    for (std::size_t i = 0; i < 1000; ++i) {
+        const glm::vec3 way = spread_ray(i, 1000, 0.05, 1.0).direction_enu;
+        const CloudSample sample = sky.at(way);
+        if (way.y < 0.0F) {
+            EXPECT_EQ(sample, CloudSample{});
+        }
+        north = std::min(north, static_cast<double>(sample.transmittance));
+    }
+    EXPECT_LT(north, 0.05);
+}
+
+TEST(ImpostorField, AnswersFinitelyEverywhere) {
+    Sky sky(few_cells());
+    Moment moment = fair_weather(0.7);
+    for (const double height_m : {-400.0, 1000.0, 1350.0, 1350.0001, 1700.0, 20000.0, 400000.0}) {
+        moment.eye.height_m = height_m;
+        moment.jumped = true;
+        sky.show(moment);
+        for (const glm::vec3 way : {glm::vec3{0.0F, 0.0F, 1.0F},
+                                    {0.0F, 0.0F, -1.0F},
+                                    {1.0F, 0.0F, 0.0F},
+                                    {-1.0F, 1e-7F, 0.0F},
+                                    {0.0F, -1.0F, 1e-7F},
+                                    {1e-7F, 1e-7F, -1.0F},
+                                    kSunWay}) {
+            for (const float ray_rad : {0.0F, 1e-3F, 0.5F}) {
+                const CloudSample sample = sky.at(way, {}, ray_rad);
+                EXPECT_TRUE(std::isfinite(sample.light_cd_m2.x + sample.distance_m));
+                EXPECT_GE(std::min({sample.light_cd_m2.x, sample.light_cd_m2.y, sample.light_cd_m2.z}), 0.0F);
+                EXPECT_GE(sample.transmittance, 0.0F);
+                EXPECT_LE(sample.transmittance, 1.0F);
+                EXPECT_GE(sample.distance_m, 0.0F);
+            }
+        }
+    }
+}
+
+TEST(ImpostorField, AnswersByTheRayAloneAndNearAndFarMakeTheWhole) {
+    Sky sky(few_cells());
+    sky.show(fair_weather(0.5));
+    constexpr std::size_t kCount = 600;
+    std::vector<CloudRay> rays;
+    for (std::size_t i = 0; i < kCount; ++i)
+        rays.push_back(spread_ray(i, kCount, 0.02, 1.0));
+    std::vector<CloudSample> together(kCount);
+    std::vector<CloudSample> near(kCount);
+    std::vector<CloudSample> far(kCount);
+    constexpr float kSplit_m = 2500.0F;
+    sky.field.march(rays, {}, 1e-3F, together);
+    sky.field.march(rays, {0.0F, kSplit_m}, 1e-3F, near);
+    sky.field.march(rays, {kSplit_m, 1e7F}, 1e-3F, far);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < kCount; ++i) {
+        EXPECT_EQ(sky.at(rays[i].direction_enu), together[i]);
+        CloudSample joined = near[i];
+        joined.light_cd_m2 += near[i].transmittance * far[i].light_cd_m2;
+        joined.transmittance *= far[i].transmittance;
+        worst = std::max(worst, std::abs(code(joined) - code(together[i])));
+    }
+    std::printf("near and far joined: within %.2f codes of the whole\n", worst);
+    EXPECT_LT(worst, 1.0);
+}
+
+TEST(ImpostorField, IsTheSameForTwoWhoWereToldTheSame) {
+    Sky one(few_cells());
+    Sky other(few_cells());
+    Moment moment = fair_weather();
+    for (int frame = 0; frame < 60; ++frame) {
+        moment.time_s = frame / 30.0;
+        moment.eye = moved_north(moment.eye, 8.0);
+        one.clouds.update(moment);
+        other.clouds.update(moment);
+    }
+    one.freeze(moment.eye);
+    other.freeze(moment.eye);
+    for (std::size_t i = 0; i < 2000; ++i) {
+        const glm::vec3 way = spread_ray(i, 2000, -0.1, 1.0).direction_enu;
+        EXPECT_EQ(one.at(way), other.at(way));
+    }
+}
+
+TEST(ImpostorField, DriftsWithTheWindForADayWithoutAJump) {
+    // 20 m/s for 24 h: the same picture as an eye that was carried the other way.
+    Sky sky(few_cells());
+    Moment moment = fair_weather();
+    moment.layer.drift_m = {0.0, 20.0 * 86400.0};
+    sky.show(moment);
+    const glm::vec3 there = glm::normalize(glm::vec3{0.2F, 0.5F, 0.4F});
+    const CloudSample before = sky.at(there);
+    double worst = 0.0;
+    for (int i = 0; i < 40; ++i) {
+        const glm::vec3 way = spread_ray(static_cast<std::size_t>(i), 40, 0.1, 1.0).direction_enu;
+        const double still = code(sky.at(way));
+        moment.layer.drift_m.y += 1e-3;
+        sky.show(moment);
+        worst = std::max(worst, std::abs(code(sky.at(way)) - still));
+    }
+    std::printf("a millimetre of drift after a day: %.4f codes\n", worst);
+    EXPECT_LT(worst, 0.5);
+    EXPECT_NEAR(code(sky.at(there)), code(before), 0.5);
+}
+
+TEST(ImpostorField, AllocatesNothingOnceItStands) {
+    Sky sky(few_cells());
+    Moment moment = fair_weather();
+    const std::uint64_t before = skyig::tests::allocation_count();
+    for (int frame = 0; frame < 90; ++frame) {
+        moment.time_s = frame / 30.0;
+        moment.eye = moved_north(moment.eye, 30.0);
+        moment.layer.coverage = 0.3 + 0.001 * frame;
+        sky.show(moment);
+        EXPECT_GE(sky.at({0.0F, 1.0F, 0.0F}).transmittance, 0.0F);
+    }
+    EXPECT_EQ(skyig::tests::allocation_count() - before, 0U);
+}
+
+TEST(ImpostorField, Costs) {
+    Sky sky;
+    Moment moment = fair_weather();
+    const double begin_ms = cpu_ms();
+    sky.clouds.update(moment);
+    const double all_ms = cpu_ms() - begin_ms;
+    const ImpostorClouds::Work work = sky.clouds.work();
+    std::printf("whole sky at once: %d clouds made, lit and drawn in %.0f ms (%.2f ms each)\n", work.lit,
+                all_ms, all_ms / work.lit);
+    double freeze_ms = 1e9;
+    for (int i = 0; i < 5; ++i) {
+        const double start_ms = cpu_ms();
+        sky.freeze(moment.eye);
+        freeze_ms = std::min(freeze_ms, cpu_ms() - start_ms);
+    }
+    std::printf("freeze of %zu clouds: %.2f ms\n", sky.field.cloud_count(), freeze_ms);
+    for (const auto& [name, low, high] :
+         {std::tuple{"0..20 deg up", 0.0, 0.34}, {"20..90 deg up", 0.34, 1.0}}) {
+        constexpr std::size_t kCount = 20000;
+        std::vector<CloudRay> rays;
+        std::vector<CloudSample> out(kCount);
+        for (std::size_t i = 0; i < kCount; ++i)
+            rays.push_back(spread_ray(i, kCount, low, high));
+        double best_ms = 1e9;
+        for (int i = 0; i < 5; ++i) {
+            const double start_ms = cpu_ms();
+            sky.field.march(rays, {}, 2e-3F, out);
+            best_ms = std::min(best_ms, cpu_ms() - start_ms);
+        }
+        const double ns = best_ms * 1e6 / kCount;
+        std::printf("a ray %s: %.0f ns\n", name, ns);
+        EXPECT_GT(ns, 0.0);
+    }
+    // One cloud's picture at two sizes.
+    const auto clouds = sky.clouds.clouds();
+    const auto grown = std::max_element(clouds.begin(), clouds.end(), [](const Cloud& a, const Cloud& b) {
+        return a.particles < b.particles;
+    });
+    const glm::vec3 middle{0.0F, 6000.0F, 500.0F};
+    std::vector<Shaded> shaded(grown->particles);
+    shade(sky.clouds.particles(*grown), sky.clouds.lit(*grown), sky.clouds.shading(), middle, shaded);
+    for (const int side : {128, 256}) {
+        const Capture capture = capture_of(shaded, middle, 1e-6F, side);
+        std::vector<Texel> picture(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+        double best_ms = 1e9;
+        for (int i = 0; i < 5; ++i) {
+            const double start_ms = cpu_ms();
+            draw(shaded, capture, picture);
+            best_ms = std::min(best_ms, cpu_ms() - start_ms);
+        }
+        std::printf("a picture of %zu particles, %d x %d: %.2f ms\n", shaded.size(), capture.size.x,
+                    capture.size.y, best_ms);
+        EXPECT_GT(best_ms, 0.0);
+    }
+}
+
+}  // namespace
+}  // namespace skyig::render::cloud::impostor

@@ -1,0 +1,161 @@
+// The cloud map without GL: its geometry, its schedule, its tone, and what the eye adapts to.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "render/cloud/tile_tone.h"
+#include "render/eye/exposure.h"
+#include "render/eye/tone_curve.h"
+#include "render/sky_frame.h"
+#include "tests/render/fake_clouds.h"
+#include "tests/render/scenes.h"
+
+namespace skyig::render {
+namespace {
+
+using namespace tests;
+using cloud::MapGeometry;
+
+TEST(CloudMapGeometry, PlacesAndDirectionsAreInverseAndTheRimIsCommon) {
+    double worst = 0.0, worst_float = 0.0;
+    for (int i = 0; i < 4000; ++i) {
+        const glm::dvec3 direction = at(std::fmod(i * 0.618034, 1.0) * 180.0 - 90.0, i * 7.1);
+        const glm::dvec2 place = shaders64::cloud_map_place(direction);
+        glm::dvec3 back = shaders64::cloud_map_direction(place);
+        back.z = std::copysign(back.z, direction.z);
+        worst = std::max(worst, glm::length(glm::normalize(back) - direction));
+        const glm::vec2 single = shaders32::cloud_map_place(glm::vec3{direction});
+        worst_float = std::max(worst_float, glm::length(glm::dvec2{single} - place));
+    }
+    std::printf("there and back %.1e rad; float against double %.1e of a square's half\n", worst,
+                worst_float);
+    EXPECT_LT(worst, 1e-14);
+    EXPECT_LT(worst_float, 1e-6);
+    const MapGeometry geometry(512);
+    for (int i = 0; i < 512; ++i) {
+        EXPECT_EQ(geometry.direction(i, 0, false),
+                  geometry.direction(i, 0, true) * glm::vec3(1.0F, 1.0F, -1.0F));
+        EXPECT_NEAR(geometry.direction(i, 0, false).z, 0.0F, 1e-7F);
+    }
+}
+
+TEST(CloudMapGeometry, SizeGoesByTheFinestPixelAndWhatIsSeen) {
+    std::vector<ChannelView> one{{symmetric_frustum(30.0, 1280, 1024), view_from_enu(0.0, 0.0, 0.0)}};
+    EXPECT_EQ(cloud::map_size_for(9.0e-4, one), 1024);
+    EXPECT_EQ(cloud::map_size_for(2.0e-3, one), 512);
+    EXPECT_EQ(cloud::map_size_for(4.0e-4, one), 2048);
+    EXPECT_EQ(cloud::map_size_for(9.0e-4, std::vector<ChannelView>(3, one[0])), 1024);
+    EXPECT_EQ(cloud::map_size_for(9.0e-4, std::vector<ChannelView>(8, one[0])), 512);
+}
+
+cloud::ToneLaw law_of(const shaders64::ToneParameters& tone) {
+    const auto t = eye::single_precision(tone);
+    return {t.log2_gain,       t.exponent, t.compression, t.burn,        t.photopic,
+            t.inv_display_max, t.ambient,  t.shoulder,    t.encode_power};
+}
+
+TEST(CloudTone, IsTheFramesToneCurve) {
+    DisplaySettings gamma;
+    gamma.srgb = false;
+    gamma.black_cd_m2 = 0.5;
+    DisplaySettings reinhard;
+    reinhard.tone = ToneOperator::kReinhard;
+    for (const auto* kernel : {&cloud::portable::tone_kernel(), &cloud::tone_kernel()}) {
+        double worst = 0.0;
+        for (const DisplaySettings& display : {DisplaySettings{}, gamma, reinhard}) {
+            for (const double adaptation : {1e-3, 0.3, 50.0, 4000.0, 3e4}) {
+                const auto tone = eye::tone_parameters(display, adaptation);
+                for (int i = 0; i < 40; ++i) {
+                    float red[32], green[32], blue[32];
+                    glm::dvec3 exact[32];
+                    for (int k = 0; k < 32; ++k) {
+                        const double luminance = adaptation * std::exp2((i * 32 + k) / 64.0 - 10.0);
+                        const glm::dvec3 rgb{luminance * (1.0 + 0.4 * std::sin(k)), luminance,
+                                             luminance * (1.0 - 1.1 * std::sin(0.7 * k))};
+                        red[k] = static_cast<float>(rgb.x);
+                        green[k] = static_cast<float>(rgb.y);
+                        blue[k] = static_cast<float>(rgb.z);
+                        exact[k] = shaders64::shown(rgb, tone);
+                    }
+                    kernel->show(law_of(tone), red, green, blue);
+                    for (int k = 0; k < 32; ++k) {
+                        const glm::dvec3 off = glm::abs(glm::dvec3{red[k], green[k], blue[k]} - exact[k]);
+                        worst = std::max({worst, off.x, off.y, off.z});
+                    }
+                }
+            }
+        }
+        std::printf("%s: %.4f codes\n", kernel->name, 255.0 * worst);
+        EXPECT_LT(255.0 * worst, 0.02) << kernel->name;
+    }
+}
+
+Scene noon_scene(double height_m) {
+    Scene scene = make_scene(48.0, 185.0, -10.0, 40.0, height_m);
+    add_view(scene, symmetric_frustum(30.0, 640, 512), view_from_enu(150.0, 20.0, 0.0));
+    return scene;
+}
+
+Quality coarse() {
+    Quality quality;
+    quality.cloud_map_size = 512;
+    quality.cloud_tiles_a_frame = 6;
+    return quality;
+}
+
+TEST(CloudMapSchedule, FollowsAFixedNumberOfRaysAFrameAndNoneWhereAllStandsStill) {
+    const FakeSheet sheet{};
+    Scene scene = noon_scene(500.0);
+    add_layer(scene, sheet);
+    SkyFrame frame({}, coarse());
+    frame.draw_clouds(fake_clouds(sheet));
+    frame.prepare(scene, 1.8e-3);
+    EXPECT_GT(frame.clouds().map().rays_marched(), 30000) << "the first frame has all";
+    int most = 0;
+    long all = 0;
+    for (int i = 0; i < 60; ++i) {
+        scene.time_s += 1.0 / 30.0;
+        scene.eye.latitude_deg += 7e-5;
+        frame.prepare(scene, 1.8e-3);
+        most = std::max(most, frame.clouds().map().rays_marched());
+        all += frame.clouds().map().rays_marched();
+    }
+    std::printf("%d rays a frame at most, %.0f in the mean\n", most, static_cast<double>(all) / 60.0);
+    EXPECT_LE(most, 6 * cloud::kTileTexels + 100);
+    EXPECT_GT(all, 30 * 6 * cloud::kTileTexels / 2);
+    for (int i = 0; i < 60; ++i)
+        frame.prepare(scene, 1.8e-3);
+    EXPECT_EQ(frame.clouds().map().rays_marched(), 0);
+    EXPECT_TRUE(frame.clouds().toned().empty()) << "nothing has moved";
+    EXPECT_TRUE(frame.plan().needs(Pass::kClouds));
+    EXPECT_FALSE(frame.plan().needs(Pass::kNearClouds));
+    scene.weather.cloud_count = 0;
+    frame.prepare(scene, 1.8e-3);
+    EXPECT_FALSE(frame.plan().needs(Pass::kClouds));
+    EXPECT_FALSE(frame.clouds().shown());
+}
+
+TEST(CloudAdaptation, IsToWhatIsSeenOfCloudsToo) {
+    for (const AdaptationSource source : {AdaptationSource::kSky, AdaptationSource::kViewMean}) {
+        DisplaySettings display;
+        display.adapt_to = source;
+        const FakeSheet fog{.light_cd_m2 = glm::vec3{700.0F}, .fog_per_m = 0.05};
+        Scene scene = noon_scene(500.0);
+        SkyFrame clear(display, coarse());
+        clear.prepare(scene, 1.8e-3);
+        add_layer(scene, fog);
+        SkyFrame frame(display, coarse());
+        frame.draw_clouds(fake_clouds(fog));
+        frame.prepare(scene, 1.8e-3);
+        std::printf("clear %.0f cd/m2, in fog of 700: %.1f\n", clear.adaptation_cd_m2(),
+                    frame.adaptation_cd_m2());
+        EXPECT_GT(clear.adaptation_cd_m2(), 1500.0);
+        EXPECT_NEAR(frame.adaptation_cd_m2(), 700.0, 7.0);
+    }
+}
+
+}  // namespace
+}  // namespace skyig::render

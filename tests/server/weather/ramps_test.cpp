@@ -1,0 +1,215 @@
+#include "server/weather/ramps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/server/weather/weather_bench.h"
+
+namespace skyig::server::weather {
+namespace {
+
+using cigi::CloudType;
+using cigi::WeatherControl;
+using render::CloudGenus;
+
+constexpr double kFrame_s = 1.0 / 60.0;
+/// A frame's part of the ten seconds.
+constexpr double kPart = kFrame_s / 10.0;
+
+TEST(Ramps, ACloudGrowsEvenlyAndEndsWhereItWasTold) {
+    WeatherBench bench;
+    bench.frame();
+    bench.send(cloud(1, CloudType::kCumulus, 1000.0F, 80.0F));
+    double before = 0.0, largest = 0.0;
+    int frames = 0;
+    while (before < 0.8 && frames < 1000) {
+        bench.frame(kFrame_s);
+        const double now = bench.weather().cloud_count == 0 ? 0.0 : bench.weather().clouds[0].coverage;
+        EXPECT_GE(now, before);
+        largest = std::max(largest, now - before);
+        before = now;
+        ++frames;
+    }
+    std::printf("  0 to 80 %% in %d frames, largest step %.3f %%\n", frames, 100.0 * largest);
+    EXPECT_NEAR(frames * kFrame_s, 10.0, 2.0 * kFrame_s);
+    EXPECT_LE(largest, 0.8 * kPart * 1.001);
+    EXPECT_EQ(before, static_cast<double>(80.0F) / 100.0);
+    EXPECT_EQ(bench.weather().clouds[0].base_m, 1000.0);
+}
+
+TEST(Ramps, EveryMemberGoesItsWayAndTurnsBackWithoutAStep) {
+    WeatherBench bench;
+    WeatherControl layer = cloud(1, CloudType::kStratus, 300.0F, 100.0F);
+    layer.visibility = 500.0F;
+    bench.send(layer);
+    bench.settle();
+    WeatherControl changed = layer;
+    changed.base_elevation = 900.0F;
+    changed.thickness = 1500.0F;
+    changed.visibility = 50.0F;
+    changed.transition_band = changed.top_transition_band = 60.0F;
+    bench.send(changed);
+    render::CloudLayer before = bench.weather().clouds[0];
+    double base_step_m = 0.0, extinction_step = 0.0;
+    for (int i = 0; i < 300; ++i) {
+        if (i == 150) bench.send(layer);
+        const render::CloudLayer& now = bench.frame(kFrame_s).weather.clouds[0];
+        base_step_m = std::max(base_step_m, std::abs(now.base_m - before.base_m));
+        extinction_step = std::max(extinction_step, std::abs(now.extinction_per_m - before.extinction_per_m));
+        before = now;
+    }
+    EXPECT_LE(base_step_m, 600.0 * kPart * 1.001);
+    EXPECT_LE(extinction_step, (3.0 / 50.0 - 3.0 / 500.0) * kPart * 1.001);
+    EXPECT_GT(before.base_m, 300.0);
+    bench.settle();
+    EXPECT_EQ(bench.weather().clouds[0].base_m, 300.0);
+}
+
+/// A host may stream its own slow change: what is shown follows, and does not stand still.
+TEST(Ramps, WhatChangesInEveryFrameIsFollowed) {
+    WeatherBench bench;
+    cigi::AtmosphereControl air;
+    air.model_enable = true;
+    WeatherControl layer = cloud(1, CloudType::kStratus, 300.0F, 100.0F);
+    for (int i = 0; i < 3600; ++i) {
+        layer.base_elevation = 300.0F + static_cast<float>(i) / 60.0F;  // 1 m/s
+        air.visibility = 50'000.0F / (1.0F + static_cast<float>(i) / 3600.0F);
+        bench.send(layer, air);
+        bench.frame(kFrame_s);
+    }
+    const double behind_m = static_cast<double>(layer.base_elevation) - bench.weather().clouds[0].base_m;
+    std::printf("  a base that rises by 1 m/s is %.2f m behind\n", behind_m);
+    EXPECT_GT(behind_m, 0.0);
+    EXPECT_LT(behind_m, 10.1);
+    EXPECT_NEAR(bench.scene.air.visibility_m, 25'000.0 / (1.0 - 10.0 / 120.0), 100.0);
+    EXPECT_NEAR(bench.weather().clouds[0].coverage, 1.0, 0.01);
+}
+
+TEST(Ramps, AnotherGenusFadesInWhileTheOldFadesOut) {
+    WeatherBench bench;
+    bench.send(cloud(1, CloudType::kCumulus, 1000.0F, 50.0F));
+    bench.settle();
+    bench.send(cloud(1, CloudType::kStratus, 1000.0F, 100.0F));
+    for (int i = 0; i < 5; ++i)
+        bench.frame(1.0);
+    ASSERT_EQ(bench.weather().cloud_count, 2U);
+    for (const render::CloudLayer& cloud : bench.weather().all_clouds())
+        EXPECT_NEAR(cloud.coverage, cloud.genus == CloudGenus::kStratus ? 0.5 : 0.25, 1e-6);
+    bench.settle();
+    ASSERT_EQ(bench.weather().cloud_count, 1U);
+    EXPECT_EQ(bench.weather().clouds[0].genus, CloudGenus::kStratus);
+}
+
+TEST(Ramps, AVisibilityOfTheAirChangesAsExtinction) {
+    WeatherBench bench;
+    cigi::AtmosphereControl air;
+    air.model_enable = true;
+    air.pressure = 1013.25F;
+    air.air_temperature = 15.0F;
+    air.visibility = 50'000.0F;
+    bench.send(air);
+    bench.settle();
+    EXPECT_EQ(bench.scene.air.visibility_m, 50'000.0);
+    air.visibility = 2000.0F;
+    bench.send(air);
+    for (int i = 0; i < 5; ++i)
+        bench.frame(1.0);
+    EXPECT_NEAR(1.0 / bench.scene.air.visibility_m, 0.5 * (1.0 / 50e3 + 1.0 / 2e3), 1e-12);
+    bench.settle();
+    EXPECT_EQ(bench.scene.air.visibility_m, 2000.0);
+    EXPECT_EQ(bench.weather().obscurant_count, 0U);
+}
+
+TEST(Ramps, AirThickerThanTheTablesGoesOverIntoFogWithoutAStep) {
+    WeatherBench bench;
+    cigi::AtmosphereControl air;
+    air.model_enable = true;
+    air.visibility = 1100.0F;
+    bench.send(air);
+    bench.settle();
+    air.visibility = 200.0F;
+    bench.send(air);
+    const double depth = -std::log(0.05);
+    double before = depth / 1100.0, largest = 0.0;
+    for (int i = 0; i < 620; ++i) {
+        bench.frame(kFrame_s);
+        double now = depth / bench.scene.air.visibility_m;
+        for (const render::Obscurant& fog : bench.weather().all_obscurants())
+            now += fog.extinction_per_m;
+        EXPECT_GE(now, before - 1e-15);
+        largest = std::max(largest, now - before);
+        before = now;
+    }
+    EXPECT_NEAR(before, depth / 200.0, 1e-12);
+    EXPECT_LE(largest, (depth / 200.0 - depth / 1100.0) * kPart * 1.001);
+    EXPECT_EQ(bench.scene.air.visibility_m, 1000.0);
+}
+
+TEST(Ramps, AJumpOfTheClockAndStandbyShowWhatIsTold) {
+    WeatherBench bench;
+    bench.settle();
+    cigi::CelestialSphereControl later;
+    later.hour = 18;
+    later.date = 6212026;
+    later.date_time_valid = later.sun_enable = true;
+    bench.send(cloud(1, CloudType::kCumulus, 1000.0F, 80.0F), later);
+    bench.frame();
+    EXPECT_NEAR(bench.weather().clouds[0].coverage, 0.8, 1e-6);
+    bench.host.mode = cigi::IgMode::kStandby;
+    bench.send();
+    bench.frame();
+    EXPECT_EQ(bench.weather().cloud_count, 0U);
+}
+
+TEST(Ramps, AreOffAtATransitionOfZero) {
+    config::Config config = world::three_channels();
+    config.weather.transition_s = 0.0;
+    WeatherBench bench(config);
+    bench.frame();
+    bench.send(cloud(1, CloudType::kCumulus, 1000.0F, 80.0F));
+    bench.frame();
+    EXPECT_NEAR(bench.weather().clouds[0].coverage, 0.8, 1e-6);
+}
+
+TEST(Ramps, ARegionThatOpensHidesGraduallyToo) {
+    WeatherBench bench;
+    bench.send(cloud(1, CloudType::kStratus, 1000.0F, 100.0F));
+    bench.settle();
+    bench.send(region(1, 47.4582, 8.5555, 10e3F),
+               in_region(cloud(1, CloudType::kCumulus, 1000.0F, 50.0F), 1));
+    double before = 1.0;
+    for (int i = 0; i < 650; ++i) {
+        bench.frame(kFrame_s);
+        double now = 0.0;
+        for (const render::CloudLayer& cloud : bench.weather().all_clouds())
+            if (cloud.genus == CloudGenus::kStratus) now = cloud.coverage;
+        EXPECT_LE(before - now, kPart * 1.001);
+        EXPECT_LE(now, before);
+        before = now;
+    }
+    EXPECT_EQ(before, 0.0);
+}
+
+TEST(Drift, IsExactOverADayAndGoesOnWhenTheWindTurns) {
+    Drift drift;
+    const glm::dvec2 west{12.3, -4.5};
+    drift.set_wind(west, 100.0);
+    EXPECT_EQ(drift.at(0.0), glm::dvec2(0.0)) << "the first wind has blown since scene time 0";
+    double worst_m = 0.0;
+    for (int frame = 6000; frame < 86400 * 60; frame += 977) {
+        const double time_s = frame / 60.0;
+        drift.set_wind(west, time_s);
+        worst_m = std::max(worst_m, glm::distance(drift.at(time_s), west * time_s));
+    }
+    EXPECT_EQ(worst_m, 0.0);
+    const glm::dvec2 before = drift.at(86400.0);
+    drift.set_wind({-20.0, 0.0}, 86400.0);
+    EXPECT_EQ(drift.at(86400.0), before);
+    EXPECT_NEAR(drift.at(86410.0).x, before.x - 200.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace skyig::server::weather
