@@ -201,9 +201,9 @@ void MoonDisc::prepare(const Scene& scene, const SkyFrame& sky, double pixel_rad
     const SkyLight& light = sky.light();
     DiscFrame frame = disc_frame(moon.direction_enu, moon.angular_radius_rad, pixel_rad, light);
     for (std::size_t row = 0; row < DiscFrame::kRows; ++row) {
-        frame.set_light(
-            row, glm::vec3{light.veil_passes(frame.straight_elevation_rad[row]) *
-                           sky.air().transmittance_rgb(light.eye_height_m, frame.straight_elevation_rad[row])});
+        frame.set_light(row, glm::vec3{light.veil_passes(frame.straight_elevation_rad[row]) *
+                                       sky.air().transmittance_rgb(light.eye_height_m,
+                                                                   frame.straight_elevation_rad[row])});
     }
     frame.brightness = static_cast<float>(night::moon_mean_cd_m2(moon, scene.sun.distance_au));
     pass_.prepare(sky, frame, tone, dither);

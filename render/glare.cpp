@@ -61,8 +61,9 @@ GlareSource moon_glare(const Scene& scene, const sky::AirTables& air, const SkyL
     GlareSource source = unlit_source(scene.moon.direction_enu, scene.moon.angular_radius_rad, light);
     if (!scene.moon.enabled) return source;
     const double straight_rad = light.straight_elevation_rad(source.at.elevation_rad);
-    source.rgb_lux = light.veil_passes(straight_rad) * scene.moon.sunlit * night::moon_illuminance_lux(scene.moon, scene.sun.distance_au) *
-                     night::moon_tint_rgb() * air.transmittance_rgb(light.eye_height_m, straight_rad);
+    source.rgb_lux = light.veil_passes(straight_rad) * scene.moon.sunlit *
+                     night::moon_illuminance_lux(scene.moon, scene.sun.distance_au) * night::moon_tint_rgb() *
+                     air.transmittance_rgb(light.eye_height_m, straight_rad);
     return source;
 }
 

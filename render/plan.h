@@ -98,9 +98,9 @@ struct Plan {
 [[nodiscard]] double direction_table_error_codes(const sky::SkyViewSize& size) noexcept;
 
 /// \param scene  the frame; \param held  what is in the tables; \param refraction  of the frame's eye and
-/// air. Deterministic: equal input gives an equal plan. Veil, dome, waves, stars, the Milky Way and glare are left
-/// for plan_veil(), plan_dome(), plan_waves(), plan_stars(), plan_milky_way() and plan_glare(), which need the light that
-/// this plan leads to.
+/// air. Deterministic: equal input gives an equal plan. Veil, dome, waves, stars, the Milky Way and glare are
+/// left for plan_veil(), plan_dome(), plan_waves(), plan_stars(), plan_milky_way() and plan_glare(), which
+/// need the light that this plan leads to.
 [[nodiscard]] Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& refraction,
                              const Quality& quality = {}) noexcept;
 

@@ -140,9 +140,8 @@ StarField::Made StarField::made_of(const Scene& scene, const SkyFrame& frame) no
 bool StarField::light_is_stale(const Made& now, double pixel_rad) const noexcept {
     const Made& held = made_;
     return !held.valid || now.tables != held.tables || now.air_in_use != held.air_in_use ||
-           now.veil != held.veil ||
-           moved(now.sun_scale, held.sun_scale) || moved(now.moon_scale, held.moon_scale) ||
-           sky::height_is_stale(now.height_m, held.height_m) ||
+           now.veil != held.veil || moved(now.sun_scale, held.sun_scale) ||
+           moved(now.moon_scale, held.moon_scale) || sky::height_is_stale(now.height_m, held.height_m) ||
            std::abs(now.horizon_lift_rad - held.horizon_lift_rad) > kStep_px * pixel_rad;
 }
 

@@ -291,6 +291,7 @@ void run(const DaemonOptions& options, const config::Config& config,
                                    : std::make_unique<FrameTable>(options.times_path, config.channels);
     const std::unique_ptr<GlPainter> made = make_painter(options, config);
     GlPainter& painter = *made;
+    painter.draw_clouds();
     say_banner(log, config, painter, outside.heard(options, config));
     if (const std::string path = record_path(options, config, clock); !path.empty()) {
         outside.record(path, config,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "render/clouds.h"
+
 namespace skyig::server {
 
 // A debug context costs nothing that can be measured here, and every GL error is then counted.
@@ -20,7 +22,14 @@ GlPainter::GlPainter(std::unique_ptr<render::output::Desktop> desktop, std::vect
     }
 }
 
+void GlPainter::draw_clouds() {
+    if (draws_clouds_) return;
+    renderer_.draw_clouds(render::scene_clouds());
+    draws_clouds_ = true;
+}
+
 void GlPainter::prepare(const render::Scene& scene) {
+    if (scene.weather.cloud_count > 0) draw_clouds();
     const render::FrameReport& report = renderer_.prepare(scene);
     passes_ = report.plan.passes;
     gl_errors_ = report.gl_errors;

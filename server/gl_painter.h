@@ -24,6 +24,9 @@ class GlPainter final : public Painter {
     GlPainter(std::unique_ptr<render::output::Desktop> desktop, std::vector<render::Channel> channels,
               const render::DisplaySettings& display, const render::Quality& quality);
 
+    /// Clouds can be drawn from the next frame on. Called at the first scene that has some if it was not
+    /// before: who must not be held up then for a quarter of a second calls it at the start.
+    void draw_clouds();
     void prepare(const render::Scene& scene) override;
     void draw(std::size_t channel) override;
     bool present() override;
@@ -42,6 +45,7 @@ class GlPainter final : public Painter {
     render::Renderer renderer_;
     std::vector<render::output::Shown> shown_;
     std::array<render::PlannedPass, render::kPassCount> passes_{};
+    bool draws_clouds_ = false;
     std::uint64_t gl_errors_ = 0;
     double adaptation_cd_m2_ = 0.0;
 };

@@ -28,10 +28,9 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 16> kVerbs{"host",   "shot",  "plan",   "channels", "bench",
-                                                  "ephem",  "cloud", "decode", "metar",    "replay",
-                                                  "record", "sky",   "status", "top",      "tone",
-                                                  "rvr"};
+constexpr std::array<std::string_view, 16> kVerbs{"host",   "shot",   "plan",  "channels", "bench",  "ephem",
+                                                  "cloud",  "decode", "metar", "replay",   "record", "sky",
+                                                  "status", "top",    "tone",  "rvr"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);

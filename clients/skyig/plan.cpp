@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "clients/skyig/still/still.h"
+#include "render/clouds.h"
 #include "render/screens.h"
 #include "render/sky_frame.h"
 #include "server/clock.h"
@@ -44,6 +45,7 @@ StillPlan plan_still(const PlanOptions& options) {
     render::SkyFrame frame(display, out.quality, screens.distinct);
     const double pixel_rad = render::finest_pixel_rad(channels, still.scene.channel_views());
     const double smallest_sr = render::smallest_pixel_sr(channels, still.scene.channel_views());
+    if (still.scene.weather.cloud_count > 0) frame.draw_clouds(render::scene_clouds());
     frame.prepare(still.scene, pixel_rad, smallest_sr);
     out.first = frame.plan();
     frame.prepare(still.scene, pixel_rad, smallest_sr);

@@ -279,7 +279,7 @@ shaders64::VeilSum Veil::sum(const glm::dvec3& direction_enu, double end_m) cons
     const shaders64::VeilRay ray{direction_enu.z, eye_radius_m_};
     const shaders64::VeilBeams lit = beams(direction_enu);
     if (!std::isfinite(ray.sine) || !(end_m > 0.0)) return sum;
-    each_piece(segments(), ray, end_m, [&](const Segment& segment, double from_m, double to_m) {
+    each_short_piece(segments(), ray, end_m, [&](const Segment& segment, double from_m, double to_m) {
         sum = shaders64::veil_add(sum, segment, from_m, to_m, ray, lit);
         return sum.cut_depth < kOpaque;
     });
@@ -297,7 +297,7 @@ Veil::Both Veil::along(const glm::dvec3& direction_enu, double distance_m, doubl
     const shaders64::VeilBeams lit = beams(direction_enu);
     Both both{kNothing, kNothing};
     if (!std::isfinite(ray.sine) || !(distance_m > 0.0)) return both;
-    each_piece(segments(), ray, end_m, [&](const Segment& s, double from_m, double to_m) {
+    each_short_piece(segments(), ray, end_m, [&](const Segment& s, double from_m, double to_m) {
         const double at_m = std::clamp(distance_m, from_m, to_m);
         both.whole = shaders64::veil_add(both.whole, s, from_m, at_m, ray, lit);
         if (from_m < distance_m) both.near = both.whole;

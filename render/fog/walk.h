@@ -33,6 +33,23 @@ void each_piece(std::span<const Segment> segments, const Ray& ray, Real end_m, U
     }
 }
 
+/// The same in pieces short enough for a source that is linear along each: thick ones are cut where 1 and 3
+/// of their cut depth lie before.
+template <class Segment, class Ray, class Real, class Use>
+void each_short_piece(std::span<const Segment> segments, const Ray& ray, Real end_m, Use use) noexcept {
+    each_piece(segments, ray, end_m, [&](const Segment& segment, Real from_m, Real to_m) {
+        const Real cut = segment.kept * veil_depth(segment, from_m, to_m, ray);
+        const Real part_m = (to_m - from_m) / std::max(cut, Real(1e-30));
+        for (const Real depth : {Real(1), Real(3)}) {
+            if (!(cut > depth)) break;
+            const Real at_m = std::min(from_m + (depth == Real(1) ? Real(1) : Real(2)) * part_m, to_m);
+            if (!use(segment, from_m, at_m)) return false;
+            from_m = at_m;
+        }
+        return use(segment, from_m, to_m);
+    });
+}
+
 /// True optical depth. \param sine  of the ray's elevation; what is not finite meets nothing
 template <class Segment, class Ray, class Real>
 [[nodiscard]] Real depth_along(std::span<const Segment> segments, const Ray& ray, Real end_m) noexcept {

@@ -83,11 +83,19 @@ void walk(vec3 view, float distance_m, inout VeilSum near, inout VeilSum whole) 
         VeilSegment at = veil_segment(k < 0 ? -1 - k : k);
         vec2 end_m = veil_below_m(k < 0 ? at.low_m : at.high_m, ray);
         float to_m = max(k < 0 ? end_m.x : end_m.y, 0.0);
-        float at_m = clamp(distance_m, from_m, max(to_m, from_m));
-        whole = veil_add(whole, at, from_m, at_m, ray, beams);
-        if (from_m < distance_m) near = whole;
-        whole = veil_add(whole, at, at_m, to_m, ray, beams);
-        from_m = to_m;
+        to_m = max(to_m, from_m);
+        float cut = at.kept * veil_depth(at, from_m, to_m, ray);
+        float part_m = (to_m - from_m) / max(cut, 1e-30);
+        for (int piece = 0; piece < 3; ++piece) {
+            bool last = piece == 2 || !(cut > (piece == 0 ? 1.0 : 3.0));
+            float until_m = last ? to_m : min(from_m + (piece == 0 ? 1.0 : 2.0) * part_m, to_m);
+            float at_m = clamp(distance_m, from_m, until_m);
+            whole = veil_add(whole, at, from_m, at_m, ray, beams);
+            if (from_m < distance_m) near = whole;
+            whole = veil_add(whole, at, at_m, until_m, ray, beams);
+            from_m = until_m;
+            if (last) break;
+        }
     }
 }
 
