@@ -13,6 +13,14 @@ namespace {
 // That the second source is asked at a time.
 constexpr std::size_t kRays = 64;
 
+// Pictures as large as the map's rays can tell, some 2 ms of one core a frame in flight.
+cloud::impostor::ImpostorSettings settings() noexcept {
+    cloud::impostor::ImpostorSettings settings;
+    settings.lights_per_update = 2;
+    settings.pictures_per_update = 3;
+    return settings;
+}
+
 void put_behind(const CloudSample& behind, CloudSample& sample) noexcept {
     const float passed = sample.transmittance;
     const float opacity = 1.0F - passed;
@@ -76,7 +84,7 @@ void SceneCloudMaker::follow(const cloud::CloudMoment& moment, float ray_rad, bo
         if (drawn_as(weather, i) != CloudModel::kImpostor) continue;
         Impostors& impostors = impostors_of(layer);
         if (!impostors.clouds) {
-            impostors.clouds = std::make_unique<ImpostorClouds>(cloud::impostor::ImpostorSettings{});
+            impostors.clouds = std::make_unique<ImpostorClouds>(settings());
             for (Slot& slot : slots_) {
                 if (!slot.impostors) slot.impostors = std::make_unique<ImpostorField>();
             }
