@@ -86,7 +86,7 @@ struct Layer {
     float top_scud;
     float extinction_per_m;
     float lift_per_m;  // at most
-    float look_m;  // first and shortest part of the way that is looked along towards a source
+    float look_m;      // first and shortest part of the way that is looked along towards a source
     Area area;
     float g;
     SlabNodes inside;

@@ -42,9 +42,9 @@ constexpr Genus cumulonimbus() {
                 {Sheet::kPuffs, turned(2, 1), 1.0F},
                 {Sheet::kPuffs, turned(9, -4), 0.16F}}};
     g.push = {0.05F, 0.03F};
-    g.fines = {{{turned(27, 11), 4200.0F, 0.32F}, {turned(107, 44), 1200.0F, 0.13F}}};
+    g.fines = {{{turned(27, 11), 4200.0F, 0.25F}, {turned(107, 44), 1200.0F, 0.12F}}};
     // Full grown: a trunk, and the anvil over it.
-    g.lift = {2.3F, -6.6F, 4.3F};
+    g.lift = {1.5F, -4.9F, 3.3F};
     g.edge = 0.30F;
     g.reach_m = 660.0F;
     g.step_m = 20.0F;
