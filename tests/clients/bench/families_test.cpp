@@ -22,15 +22,20 @@ TEST(Families, HaveNamesOfTheirOwnAndAreFoundByThem) {
     EXPECT_EQ(find_family("nonsense"), nullptr);
 }
 
-/// What the pages need: every model has the headline's error and cost, every plot something to draw.
+/// What the pages need: every model has the headline's error and cost, every plot something to draw. The
+/// ways of drawing clouds stand beside the models of light in them: they have a cost of their own.
 void expect_complete(const Report& report) {
     ASSERT_FALSE(report.models.empty());
     for (const ModelEntry& model : report.models) {
         EXPECT_FALSE(model.what.empty()) << model.name;
-        const ErrorEntry* error = find_error(model, report.headline.quantity, report.headline.cases);
-        ASSERT_NE(error, nullptr) << model.name;
-        EXPECT_GT(error->figures.count, 0U);
-        EXPECT_NE(find_cost(model, report.headline.cost), nullptr) << model.name;
+        if (model.name.rfind("drawn: ", 0) == 0) {
+            EXPECT_NE(find_cost(model, "ray"), nullptr) << model.name;
+        } else {
+            const ErrorEntry* error = find_error(model, report.headline.quantity, report.headline.cases);
+            ASSERT_NE(error, nullptr) << model.name;
+            EXPECT_GT(error->figures.count, 0U);
+            EXPECT_NE(find_cost(model, report.headline.cost), nullptr) << model.name;
+        }
         if (report.family == "ephemeris") {
             EXPECT_EQ(report.headline.cost, "frame");
             const CostEntry* worst = find_cost(model, report.headline.worst_cost);
