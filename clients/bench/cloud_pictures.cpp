@@ -91,7 +91,9 @@ double code(const CloudSample& sample) {
 ErrorFigures against_particles() {
     const cloud::CloudLight light = fine_day();
     const render::Scene scene = cumulus(CloudModel::kImpostor);
-    cloud::impostor::ImpostorClouds clouds({});
+    cloud::impostor::ImpostorSettings settings;
+    settings.cells = 16;
+    cloud::impostor::ImpostorClouds clouds(settings);
     clouds.update({.eye = scene.eye,
                    .layer = scene.weather.clouds[0],
                    .beams = light.beams,
