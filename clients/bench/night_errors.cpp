@@ -120,22 +120,27 @@ void add_towns(const TruthTable& known, StillLight& light, Rows& rows) {
     }
 }
 
-/// Midnights through the year from both hemispheres, for the zenith those with the Milky Way away from it; of
-/// the models without places they are all alike.
+/// Hours of nights through the year from both hemispheres, for the zenith those with the Milky Way away from
+/// it: a typical sky is not that of midnights alone, which all have the gegenschein up. Of the models without
+/// places they are all alike.
 void add_whole_skies(const TruthTable& known, StillLight& light, Rows& rows) {
     constexpr int kNights = 12;
+    constexpr std::array kHours{-3.0, 0.0, 3.0};  // from midnight
+    constexpr int kSkies = kNights * static_cast<int>(kHours.size());
     const double zenith_cd_m2 = anchor(known, "natural zenith dark site typical");
     const double ground_lux = anchor(known, "horizontal illuminance clear moonless natural");
     for (const NightModel model : {NightModel::kSeed, NightModel::kMean, NightModel::kSources}) {
-        const int nights = model == NightModel::kSources ? kNights : 1;
+        const int skies = model == NightModel::kSources ? kSkies : 1;
         double zenith_mag = 0.0;
         double ground_mag = 0.0;
         int zeniths = 0;
-        for (int i = 0; i < nights; ++i) {
-            Scene scene = midnight((i % 2 == 0 ? 30.0 : -30.0) * kDegree, 2.0 * kPi * i / kNights);
+        for (int i = 0; i < skies; ++i) {
+            const int night = i % kNights;
+            Scene scene = dark_hour((night % 2 == 0 ? 30.0 : -30.0) * kDegree, 2.0 * kPi * night / kNights,
+                                    kHours[static_cast<std::size_t>(i / kNights)]);
             scene.night.model = model;
             light.settle(scene);
-            ground_mag += magnitudes(light.sky_lux(), ground_lux) / nights;
+            ground_mag += magnitudes(light.sky_lux(), ground_lux) / skies;
             const glm::dvec3 galactic =
                 night::galactic_from_gcrs() * glm::transpose(scene.stars.enu_from_gcrs)[2];
             if (model == NightModel::kSources && std::abs(galactic.z) < std::sin(night::kBelt_rad)) continue;
@@ -279,13 +284,14 @@ void add_sunlit_ground(double visibility_m, StillLight& light, Rows& rows) {
 
 }  // namespace
 
-Scene midnight(double latitude_rad, double sun_longitude_rad) {
+Scene dark_hour(double latitude_rad, double sun_longitude_rad, double from_midnight_h) {
     constexpr double kObliquity_rad = 23.44 * kDegree;
     const glm::dvec3 sun{std::cos(sun_longitude_rad), std::sin(sun_longitude_rad) * std::cos(kObliquity_rad),
                          std::sin(sun_longitude_rad) * std::sin(kObliquity_rad)};
     Scene scene;
     scene.eye.latitude_deg = latitude_rad / kDegree;
-    scene.stars.enu_from_gcrs = render::enu_from_equatorial(latitude_rad, std::atan2(sun.y, sun.x) + kPi);
+    scene.stars.enu_from_gcrs = render::enu_from_equatorial(
+        latitude_rad, std::atan2(sun.y, sun.x) + kPi * (1.0 + from_midnight_h / 12.0));
     scene.sun.direction_enu = scene.stars.enu_from_gcrs * sun;
     return scene;
 }

@@ -30,7 +30,7 @@ struct NightRow {
 [[nodiscard]] std::vector<NightRow> night_rows(const std::filesystem::path& truth,
                                                const std::filesystem::path& reference);
 
-/// A moonless midnight at sea level. \param sun_longitude_rad  ecliptic
-[[nodiscard]] render::Scene midnight(double latitude_rad, double sun_longitude_rad);
+/// A moonless sky at sea level, so many hours after midnight. \param sun_longitude_rad  ecliptic
+[[nodiscard]] render::Scene dark_hour(double latitude_rad, double sun_longitude_rad, double from_midnight_h);
 
 }  // namespace skyig::clients::bench

@@ -42,11 +42,11 @@ TEST(Twilight, ZenithFollowsMeasurements) {
                     site.c_str(), ours, theirs, ours - theirs);
         errors.add(ours - theirs);
         sum += ours - theirs;
-        EXPECT_NEAR(ours, theirs, 0.65);
+        EXPECT_NEAR(ours, theirs, 0.55);
     }
     ASSERT_GT(errors.count(), 8U);
     std::printf("rms %.2f mag, mean %+.2f mag\n", errors.rms(), sum / static_cast<double>(errors.count()));
-    EXPECT_LT(errors.rms(), 0.5);
+    EXPECT_LT(errors.rms(), 0.4);
 }
 
 TEST(Twilight, ZenithFadesAtTheMeasuredRate) {
