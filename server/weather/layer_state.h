@@ -20,7 +20,6 @@ struct LayerState {
     double top_band_m = 0.0;
     /// 0..1
     double coverage = 0.0;
-    /// 0 of a cloud: what its genus has.
     double extinction_per_m = 0.0;
     double rate_mm_h = 0.0;
     double severity = 0.0;
@@ -56,9 +55,8 @@ struct ToldLayer {
     double distance_m = 0.0;
 };
 
-/// Part `t` of the way, member by member. Extinction goes linearly; that of a cloud from or to its genus' own
-/// changes at the middle.
-[[nodiscard]] LayerState mix(Family family, const LayerState& from, const LayerState& to, double t) noexcept;
+/// Part `t` of the way, member by member.
+[[nodiscard]] LayerState mix(const LayerState& from, const LayerState& to, double t) noexcept;
 
 /// The layer as it begins and ends: clouds without coverage, the others without extinction and rate.
 [[nodiscard]] LayerState nothing_of(Family family, const LayerState& state) noexcept;

@@ -65,7 +65,7 @@ void Ramps::move(ShownLayer& layer, double time_s, double step_s, bool at_once) 
         return;
     }
     const double part = std::clamp((time_s - layer.since_s) / transition_s_, 0.0, 1.0);
-    layer.state = mix(layer.told.key.family, layer.from, layer.told.state, part);
+    layer.state = mix(layer.from, layer.told.state, part);
     const double most = step_s / transition_s_;
     layer.uncovered += std::clamp(layer.told.uncovered - layer.uncovered, -most, most);
 }

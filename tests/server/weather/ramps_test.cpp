@@ -68,6 +68,31 @@ TEST(Ramps, EveryMemberGoesItsWayAndTurnsBackWithoutAStep) {
     EXPECT_EQ(bench.weather().clouds[0].base_m, 300.0);
 }
 
+TEST(Ramps, ACloudThatIsToldAVisibilityGoesThereEvenlyFromWhatItsGenusHas) {
+    for (const CloudType type : {CloudType::kCumulus, CloudType::kStratus, CloudType::kCirrostratus}) {
+        WeatherBench bench;
+        WeatherControl layer = cloud(1, type, 1000.0F, 100.0F);
+        bench.send(layer);
+        bench.settle();
+        const double own = bench.weather().clouds[0].extinction_per_m;
+        layer.visibility = 20.0F;
+        const double told = -std::log(0.05) / 20.0;
+        double before = own, largest = 0.0;
+        for (const float visibility_m : {20.0F, 0.0F}) {
+            layer.visibility = visibility_m;
+            bench.send(layer);
+            for (int i = 0; i < 620; ++i) {
+                const double now = bench.frame(kFrame_s).weather.clouds[0].extinction_per_m;
+                largest = std::max(largest, std::abs(now - before));
+                before = now;
+            }
+            EXPECT_NEAR(before, visibility_m > 0.0F ? told : own, 1e-9);
+        }
+        EXPECT_GT(own, 0.0);
+        EXPECT_LE(largest, (told - own) * kPart * 1.001);
+    }
+}
+
 /// A host may stream its own slow change: what is shown follows, and does not stand still.
 TEST(Ramps, WhatChangesInEveryFrameIsFollowed) {
     WeatherBench bench;
