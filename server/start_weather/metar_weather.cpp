@@ -235,7 +235,8 @@ class Reading {
 
     void add_lifted(LayerType type) {
         add_ground(type, kTopWithoutCloud_m);
-        dim_by_last_layer(kMostOfLayer * (beside_air_ ? extinction_per_m_ + *left_per_m_ : extinction_per_m_));
+        dim_by_last_layer(kMostOfLayer *
+                          (beside_air_ ? extinction_per_m_ + *left_per_m_ : extinction_per_m_));
     }
 
     WeatherLayer& add_ground(LayerType type, double top_m) {

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "protocol/cigi/packets.h"
 #include "render/weather.h"
 #include "server/weather/eye_plane.h"
 
@@ -40,6 +41,10 @@ struct LayerKey {
 
     friend bool operator==(const LayerKey&, const LayerKey&) = default;
 };
+
+[[nodiscard]] inline protocol::cigi::WeatherScope scope_of(const LayerKey& key) noexcept {
+    return static_cast<protocol::cigi::WeatherScope>(key.place >> 24U);
+}
 
 /// A layer as it is told.
 struct ToldLayer {
