@@ -1,7 +1,9 @@
 #include "render/light_tables.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "render/night/moon_light.h"
@@ -45,6 +47,18 @@ bool is_jump(const glm::dvec3& a, const glm::dvec3& b) noexcept {
 
 bool is_height_jump(double from_m, double to_m) noexcept {
     return std::abs(from_m - to_m) > 200.0 + 0.2 * std::abs(from_m);
+}
+
+/// Over all azimuths, of the source's table; 0 without one.
+double mean_horizon_cd_m2(const LitAir& lit) noexcept {
+    if (lit.view == nullptr) return 0.0;
+    const auto horizon = static_cast<float>(lit.view->horizon_elevation_rad());
+    constexpr std::array<double, 4> kTurns{0.125, 0.375, 0.625, 0.875};
+    double sum_cd_m2 = 0.0;
+    for (const double turn : kTurns)
+        sum_cd_m2 +=
+            static_cast<double>(lit.view->xyz_above(horizon, static_cast<float>(turn * std::numbers::pi)).y);
+    return sum_cd_m2 / static_cast<double>(kTurns.size());
 }
 
 }  // namespace
@@ -193,7 +207,8 @@ bool LightTables::has_jumped(const Scene& scene) const noexcept {
 }
 
 // Of one source: what is left of it below clouds, weighed by what a clear sky would bring.
-void LightTables::shade(const Scene& scene, const CloudShade& clouds, LitAir& lit) const noexcept {
+void LightTables::shade(const Scene& scene, const CloudShade& clouds, double ground_albedo,
+                        LitAir& lit) const noexcept {
     const double sine = std::sin(lit.source.elevation_rad);
     const double beam_lux = std::max(sine, 0.0) * air_->direct_sun_xyz(0.0, lit.source.elevation_rad).y;
     const double sky_lux = air_->ground_diffuse_xyz(lit.source.elevation_rad).y;
@@ -203,7 +218,14 @@ void LightTables::shade(const Scene& scene, const CloudShade& clouds, LitAir& li
                all_lux;
     };
     const CloudShare ground = clouds.at(0.0, sine);
-    lit.clouded = {static_cast<float>(mean(clouds.at(scene.eye.height_m, sine))),
+    const CloudShare eye = clouds.at(scene.eye.height_m, sine);
+    // Air under cover is lit by cloud and ground from all sides: what of its light is no beam's is the mean
+    // of both, not a share of the clear horizon's, which is much less bright than the ground below it.
+    const double diffuse_cd_m2 = 0.5 * (1.0 + ground_albedo) * all_lux / std::numbers::pi;
+    const double horizon_cd_m2 = mean_horizon_cd_m2(lit);
+    const double gain = horizon_cd_m2 > 0.0 ? std::clamp(diffuse_cd_m2 / horizon_cd_m2, 1.0, 4.0) : 1.0;
+    const double covered = 1.0 - static_cast<double>(eye.direct);
+    lit.clouded = {static_cast<float>(mean(eye) * (1.0 + covered * (gain - 1.0))),
                    static_cast<float>(mean(ground))};
     lit.beam_share = ground.direct;
 }
@@ -264,8 +286,8 @@ SkyLight LightTables::light(const Scene& scene, const Plan& plan,
                       1.0F};
     }
     if (const CloudShade clouds(scene.weather, light.ground_albedo); clouds.any()) {
-        shade(scene, clouds, light.sun);
-        shade(scene, clouds, light.moon);
+        shade(scene, clouds, light.ground_albedo, light.sun);
+        shade(scene, clouds, light.ground_albedo, light.moon);
         light.night_clouded = {clouds.at(scene.eye.height_m, 0.0).sky, clouds.at(0.0, 0.0).sky};
     }
     return light;

@@ -120,7 +120,8 @@ class LightTables {
     void update_sea(const Scene& scene) noexcept;
     [[nodiscard]] bool same_sea(const Made& made, const Scene& scene) const noexcept;
     void update_view(View& view, const Wanted& wanted);
-    void shade(const Scene& scene, const CloudShade& clouds, LitAir& lit) const noexcept;
+    void shade(const Scene& scene, const CloudShade& clouds, double ground_albedo,
+               LitAir& lit) const noexcept;
     [[nodiscard]] SkySettings fitting(const SkySettings& asked) const noexcept;
 
     sky::Refraction refraction_;

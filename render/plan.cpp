@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/cloud_models.h"
 #include "render/dome_bend.h"
 #include "render/eye/point_threshold.h"
 #include "render/geometry.h"
@@ -267,8 +268,7 @@ void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bo
     const auto layers = scene.weather.all_clouds();
     const bool any = std::any_of(layers.begin(), layers.end(),
                                  [](const CloudLayer& layer) { return layer.coverage > 0.0; });
-    put(plan, Pass::kClouds,
-        any ? Verdict{true, "clouds stand in the sky"} : Verdict{false, "no layer has any"});
+    put(plan, Pass::kClouds, {any, drawn_models(scene.weather)});
     put(plan, Pass::kNearClouds,
         !any         ? Verdict{false, "no layer has any"}
         : near_shown ? Verdict{true, "the eye is in a layer or soon may be"}

@@ -24,6 +24,11 @@ class CloudMaker {
 
     virtual ~CloudMaker() = default;
 
+    /// Once a frame, before what is frozen in it and while nothing is marched: what is kept from frame to
+    /// frame is brought up to date. \param ray_rad  of the map's rays \param jumped  nothing that was frozen
+    /// before is marched again
+    virtual void follow(const CloudMoment& /*moment*/, float /*ray_rad*/, bool /*jumped*/) {}
+
     /// Replaces what the slot held; other slots go on. What is returned lives until the slot is frozen anew.
     /// Allocates nothing after the first call for each slot.
     [[nodiscard]] virtual const CloudSource& freeze(std::size_t slot, const CloudMoment& moment) = 0;

@@ -158,6 +158,7 @@ void CloudMap::march_all(CloudMaker& maker, const MapFrame& frame) {
 
 void CloudMap::advance(CloudMaker& maker, const MapFrame& frame, int tiles_a_frame) {
     worker_.wait();
+    maker.follow(frame.moment, static_cast<float>(geometry_.worst_texel_rad()), false);
     tiles_done_ = tiles_asked_;
     if (blend_ < kBlendFrames) {
         ++blend_;
@@ -239,6 +240,7 @@ void CloudMap::update(CloudMaker& maker, const MapFrame& frame, int size, int ti
     list_tiles(frame.views, 0.0, seen_);
     if (!shown_ || frame.jumped) {
         worker_.wait();
+        maker.follow(frame.moment, static_cast<float>(geometry_.worst_texel_rad()), true);
         march_all(maker, frame);
     } else {
         advance(maker, frame, tiles_a_frame);

@@ -40,6 +40,7 @@ class Flight {
         // A pass that comes in later, as glare does, has had its shaders compiled.
         Scene dazzling = scene;
         dazzling.sun.direction_enu = at(40.0, 180.0);
+        dazzling.weather.obscurant_count = 0;
         renderer_.prepare(dazzling);
         for (std::size_t c = 0; c < channels_.size(); ++c)
             renderer_.draw(c);

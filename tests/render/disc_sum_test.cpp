@@ -9,8 +9,8 @@
 #include "render/gl/draw.h"
 #include "render/gl/framebuffer.h"
 #include "render/night/moon_light.h"
+#include "render/sky_frame.h"
 #include "tests/render/gl_fixture.h"
-#include "tests/render/light_tables_steps.h"
 
 namespace skyig::render {
 namespace {
@@ -78,17 +78,18 @@ constexpr std::array kHalfWidths_deg{0.5, 2.0, 5.0, 15.0};
 
 TEST_F(DiscSum, SunsPixelsAddUpToItsIlluminanceAtAnyFieldOfView) {
     const Scene scene = make_scene(40.0, 180.0, -40.0, 0.0, 0.0);
-    LightTables tables;
-    SkyLight light = step(tables, scene);
+    SkyFrame frame(undithered(), {});
+    frame.prepare(scene, 1e-3);
+    const SkyLight& light = frame.light();
     const Horizontal airless = horizontal_of(scene.sun.direction_enu);
     const Horizontal seen_at{light.refraction.apparent_from_true(airless.elevation_rad), airless.azimuth_rad};
-    const double lux = tables.air().direct_sun_xyz(0.0, seen_at.elevation_rad).y;
+    const double lux = frame.air().direct_sun_xyz(0.0, seen_at.elevation_rad).y;
     const double mean = lux / (std::numbers::pi * std::pow(std::sin(scene.sun.angular_radius_rad), 2.0));
     const double flattened = light.refraction.vertical_scale(seen_at.elevation_rad);
     SunDisc disc;
     for (const double half_width_deg : kHalfWidths_deg) {
         // The sky is left out: it is 1e5 times darker.
-        disc.prepare(scene, tables.air(), light, pixel_rad(half_width_deg), linear_tone(mean), false);
+        disc.prepare(scene, frame, pixel_rad(half_width_deg), linear_tone(mean), false);
         const double shown =
             summed(direction_of(seen_at), half_width_deg, [&](const glm::mat4& clip) { disc.draw(clip); });
         const double ratio = shown / kShown * mean / (lux * flattened);
@@ -99,7 +100,7 @@ TEST_F(DiscSum, SunsPixelsAddUpToItsIlluminanceAtAnyFieldOfView) {
 
 TEST_F(DiscSum, MoonsPixelsAddUpToItsIlluminanceAtAnyFieldOfViewAndPhase) {
     MoonDisc disc;
-    LightTables tables;
+    SkyFrame frame(undithered(), {});
     for (const double sun_azimuth_deg : {185.0, 90.0, 270.0, 220.0}) {
         Scene scene = make_scene(-2.0, sun_azimuth_deg, 40.0, 10.0, 0.0);
         // As in nature the Sun stands over the Moon's equator.
@@ -107,20 +108,21 @@ TEST_F(DiscSum, MoonsPixelsAddUpToItsIlluminanceAtAnyFieldOfViewAndPhase) {
         const glm::dvec3 beside = scene.moon.to_sun_enu - x * glm::dot(x, scene.moon.to_sun_enu);
         const glm::dvec3 y = glm::normalize(sun_azimuth_deg < 200.0 ? beside : -beside);
         scene.moon.enu_from_selenographic = {x, y, glm::cross(x, y)};
-        SkyLight light = step(tables, scene);
-        light.sun.view = light.moon.view = nullptr;
+        // Its own light stays; that of the sky, which is left out, goes with the Sun.
+        scene.sun.direction_enu = at(-40.0, sun_azimuth_deg);
+        frame.prepare(scene, 1e-3);
+        const SkyLight& light = frame.light();
         const Horizontal airless = horizontal_of(scene.moon.direction_enu);
         const Horizontal seen_at{light.refraction.apparent_from_true(airless.elevation_rad),
                                  airless.azimuth_rad};
         const double passed = shaders64::luminance_709(
-            night::moon_tint_rgb() * tables.air().transmittance_rgb(0.0, seen_at.elevation_rad));
+            night::moon_tint_rgb() * frame.air().transmittance_rgb(0.0, seen_at.elevation_rad));
         const double lux = passed * night::moon_illuminance_lux(scene.moon, 1.0);
         const double lit_share = 0.5 * (1.0 + std::cos(scene.moon.phase_angle_rad));
         const double mean = passed * night::moon_mean_cd_m2(scene.moon, 1.0) / lit_share;
         const double flattened = light.refraction.vertical_scale(seen_at.elevation_rad);
         for (const double half_width_deg : kHalfWidths_deg) {
-            disc.prepare(scene, tables.air(), light, pixel_rad(half_width_deg), linear_tone(mean), false, {},
-                         {});
+            disc.prepare(scene, frame, pixel_rad(half_width_deg), linear_tone(mean), false, {}, {});
             const double shown = summed(direction_of(seen_at), half_width_deg,
                                         [&](const glm::mat4& clip) { disc.draw(clip); });
             const double ratio = shown / kShown * mean / (lux * flattened);

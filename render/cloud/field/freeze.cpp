@@ -67,6 +67,9 @@ void tell(const CloudLayer& cloud, Layer& layer) {
     layer.self_shadow = f32(std::max(cloud.look->self_shadow, 0.0));
 }
 
+// Taller clouds are lit as finely as those of this height.
+constexpr float kTallest_m = 1000.0F;
+
 Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnchor& anchor) {
     const Genus& genus = genus_of(cloud.genus);
     const ShapePlace place{anchor.eye_m.x - cloud.drift_m.x, anchor.eye_m.y - cloud.drift_m.y, cloud.age_s,
@@ -94,6 +97,7 @@ Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnch
     layer.bottom_scud = f32(std::clamp(cloud.bottom_scud, 0.0, 1.0));
     layer.top_scud = f32(std::clamp(cloud.top_scud, 0.0, 1.0));
     layer.extinction_per_m = f32(extinction);
+    layer.look_m = 0.05F * std::min(layer.thickness_m, kTallest_m);
     layer.area = area_of(cloud, anchor.closing);
     layer.g = genus.ice ? kIceG : kWaterG;
     layer.inside = (genus.ice ? matrix.ice : matrix.water).nodes();

@@ -45,6 +45,8 @@ ImpostorClouds::ImpostorClouds(const ImpostorSettings& settings)
     particles_.resize(count * kMostParticles);
     lit_.resize(count * kMostParticles);
     needs_.reserve(count);
+    holders_.resize(static_cast<std::size_t>(settings.atlas.pictures));
+    retired_.reserve(holders_.size());
     const auto side = static_cast<std::size_t>(settings.atlas.most_side);
     canvas_.resize(side * side);
     shaded_.resize(kMostParticles);
@@ -99,6 +101,8 @@ void ImpostorClouds::update(const Moment& moment) noexcept {
     shape_ = shape;
     shading_ = Shading(settings_.light, moment.beams);
     work_ = {};
+    if (moment.jumped) std::fill(holders_.begin(), holders_.end(), std::uint8_t{0});
+    release_retired();
     if (other) {
         for (Cloud& cloud : clouds_)
             clear(cloud);
@@ -114,8 +118,41 @@ void ImpostorClouds::update(const Moment& moment) noexcept {
 
 void ImpostorClouds::clear(Cloud& cloud) noexcept {
     for (const Picture& picture : cloud.pictures)
-        atlas_->release(picture.id);
+        retire(picture.id);
     cloud = {};
+}
+
+void ImpostorClouds::hold(std::size_t slot) noexcept {
+    let_go(slot);
+    for (const Cloud& cloud : clouds_) {
+        for (const Picture& picture : cloud.pictures) {
+            if (picture.id == Atlas::kNone) continue;
+            std::uint8_t& holders = holders_[static_cast<std::size_t>(picture.id)];
+            holders = static_cast<std::uint8_t>(holders | (1U << slot));
+        }
+    }
+}
+
+void ImpostorClouds::let_go(std::size_t slot) noexcept {
+    for (std::uint8_t& holders : holders_)
+        holders = static_cast<std::uint8_t>(holders & ~(1U << slot));
+}
+
+void ImpostorClouds::retire(Atlas::Id id) noexcept {
+    if (id == Atlas::kNone) return;
+    if (holders_[static_cast<std::size_t>(id)] == 0)
+        atlas_->release(id);
+    else
+        retired_.push_back(id);
+}
+
+void ImpostorClouds::release_retired() noexcept {
+    const auto kept = std::remove_if(retired_.begin(), retired_.end(), [this](Atlas::Id id) {
+        const bool held = holders_[static_cast<std::size_t>(id)] != 0;
+        if (!held) atlas_->release(id);
+        return !held;
+    });
+    retired_.erase(kept, retired_.end());
 }
 
 void ImpostorClouds::find_velocity(double step_s) noexcept {
@@ -150,7 +187,7 @@ void ImpostorClouds::find_cells() noexcept {
 
 void ImpostorClouds::end_fade(Cloud& cloud) noexcept {
     if (cloud.pictures[1].id == Atlas::kNone || newest_part(cloud) < 1.0F) return;
-    atlas_->release(cloud.pictures[1].id);
+    retire(cloud.pictures[1].id);
     cloud.pictures[1] = {};
 }
 
@@ -283,7 +320,7 @@ void ImpostorClouds::take_picture(Cloud& cloud) noexcept {
         draw(shaded, picture.capture, canvas_);
         atlas_->write(picture.id, canvas_.data());
     }
-    atlas_->release(cloud.pictures[1].id);
+    retire(cloud.pictures[1].id);
     cloud.pictures[1] = cloud.pictures[0];
     cloud.pictures[0] = picture;
     const bool first = cloud.pictures[1].id == Atlas::kNone;

@@ -43,7 +43,7 @@ struct Moment {
     /// Angle that a texel may take: that of the map's rays.
     float texel_rad = 2e-3F;
     double time_s = 0.0;
-    /// Nothing seen before is of use: everything is made at once, without fading.
+    /// Nothing seen before is of use: everything is made at once, without fading; no slot is held any more.
     bool jumped = false;
 };
 
@@ -86,13 +86,20 @@ struct Cloud {
 inline constexpr float kDirect = 2.6F;
 inline constexpr float kPictures = 2.0F;
 
-/// Allocates at construction alone. A CloudSource that was frozen from it reads it in place:
-/// update() only when no march is under way.
+/// Allocates at construction alone. A CloudSource that was frozen from it reads the atlas in place:
+/// update() only when no march is under way, and hold() for what is to be marched after another update().
 class ImpostorClouds {
   public:
     explicit ImpostorClouds(const ImpostorSettings& settings);
 
+    /// Sources frozen at different times that may be marched still.
+    static constexpr std::size_t kSlots = 8;
+
     void update(const Moment& moment) noexcept;
+    /// Keeps the present pictures for who has frozen them, until the slot is held anew or let go; what it
+    /// held before may go. May be called while other slots are marched. \param slot  < kSlots
+    void hold(std::size_t slot) noexcept;
+    void let_go(std::size_t slot) noexcept;
 
     /// From the eye, along its east, north and up, over a spherical Earth.
     [[nodiscard]] glm::dvec3 middle_m(const Cloud& cloud, const Eye& eye) const noexcept;
@@ -124,6 +131,9 @@ class ImpostorClouds {
     void find_cells() noexcept;
     void find_velocity(double step_s) noexcept;
     void clear(Cloud& cloud) noexcept;
+    /// Of a picture that is not shown from now on.
+    void retire(Atlas::Id id) noexcept;
+    void release_retired() noexcept;
     void end_fade(Cloud& cloud) noexcept;
     void renew_light() noexcept;
     void renew_pictures() noexcept;
@@ -154,6 +164,9 @@ class ImpostorClouds {
     std::vector<Particle> particles_;
     std::vector<Lit> lit_;
     std::vector<Need> needs_;
+    /// By Atlas::Id, a bit for each slot that holds it.
+    std::vector<std::uint8_t> holders_;
+    std::vector<Atlas::Id> retired_;  // while somebody holds them
     std::vector<Texel> canvas_;
     std::vector<Shaded> shaded_;
     Work work_;

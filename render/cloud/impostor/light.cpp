@@ -123,13 +123,18 @@ void LightBuffer::light(const CloudShape& shape, std::span<const Particle> parti
     const auto depth = [](float part) {
         return std::log(std::max(part, 1.0F / kFull)) * (-1.0F / kDepthRate);
     };
+    // To its own centre a particle has half of itself in the way: one that stands out alone would be as dark
+    // as a wisp, but opaque.
+    const auto at_least_own = [&](std::uint16_t i, float part) {
+        return std::max(depth(part), 0.5F * particles[i].optical_depth);
+    };
     const glm::vec3 zenith{0.0F, 0.0F, 1.0F};
     const auto down = ordered(particles, zenith);
     trace(particles, down, zenith, Meaning::kDepth,
-          [&](std::uint16_t i, float part) { lit[i].above = depth(part); });
+          [&](std::uint16_t i, float part) { lit[i].above = at_least_own(i, part); });
     std::reverse(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(particles.size()));
     trace(particles, down, -zenith, Meaning::kDepth,
-          [&](std::uint16_t i, float part) { lit[i].below = depth(part); });
+          [&](std::uint16_t i, float part) { lit[i].below = at_least_own(i, part); });
     const bool depths = shading.method() == LightMethod::kDepths;
     const Meaning meaning = depths                                     ? Meaning::kDepth
                             : shading.method() == LightMethod::kGather ? Meaning::kGathered
@@ -142,7 +147,9 @@ void LightBuffer::light(const CloudShape& shape, std::span<const Particle> parti
             continue;
         }
         trace(particles, ordered(particles, beam.direction_enu), beam.direction_enu, meaning,
-              [&](std::uint16_t i, float part) { lit[i].beams[source] = depths ? depth(part) : part; });
+              [&](std::uint16_t i, float part) {
+                  lit[i].beams[source] = depths ? at_least_own(i, part) : part;
+              });
     }
 }
 

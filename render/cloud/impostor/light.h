@@ -27,7 +27,7 @@ enum class LightMethod : std::uint8_t {
 struct Lit {
     /// Of each source: part of its light, 0..1; by kDepths: optical depth on the way to it.
     std::array<float, CloudLight::kSources> beams{};
-    /// Optical depths straight up and down.
+    /// Optical depths straight up and down; like those to the sources no less than half of its own.
     float above = 0.0F;
     float below = 0.0F;
 };

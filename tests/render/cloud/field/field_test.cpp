@@ -276,6 +276,47 @@ TEST(CloudField, TwoMetresChangeLittle) {
     }
 }
 
+// Part of the rays through cloud, of a patch of neighbours, that are brighter by a quarter than all round
+// them.
+double lone_dots(const CloudField& field, double azimuth_rad) {
+    constexpr int kSide = 96;
+    std::vector<CloudRay> rays;
+    for (int i = 0; i < kSide * kSide; ++i)
+        rays.push_back(ray_at(0.05 + 0.0025 * (i / kSide), azimuth_rad + 0.0025 * (i % kSide)));
+    const std::vector<CloudSample> samples = seen(field, rays);
+    int cloudy = 0;
+    int dots = 0;
+    for (int y = 1; y + 1 < kSide; ++y) {
+        for (int x = 1; x + 1 < kSide; ++x) {
+            const auto at = static_cast<std::size_t>(y * kSide + x);
+            // Far clouds are finer than the rays, and rims are bright.
+            if (samples[at].transmittance > 0.01F || samples[at].distance_m > 6000.0F) continue;
+            float round = 0.0F;
+            for (const int step : {-kSide - 1, -kSide, 1 - kSide, -1, 1, kSide - 1, kSide, kSide + 1})
+                round =
+                    std::max(round, samples[static_cast<std::size_t>(y * kSide + x + step)].light_cd_m2.y);
+            ++cloudy;
+            dots += samples[at].light_cd_m2.y > 1.25F * round ? 1 : 0;
+        }
+    }
+    EXPECT_GT(cloudy, 200);
+    return static_cast<double>(dots) / std::max(cloudy, 1);
+}
+
+TEST(CloudField, GrazingLightIsNoMatterOfChance) {
+    for (const double sun_deg : {0.7, 1.0, 2.0, 5.0}) {
+        double worst = 0.0;
+        for (const double azimuth_rad : {0.4, 1.9, 3.4, 5.0}) {
+            CloudField field(matrix());
+            field.freeze(scene_of({layer_of(CloudGenus::kCumulus, 1370.0, 460.0, 0.5)}, 1000.0),
+                         beam_light(sun_deg * kPi / 180.0));
+            worst = std::max(worst, lone_dots(field, azimuth_rad));
+        }
+        std::printf("Sun at %.1f deg: lone bright rays %.3f %%\n", sun_deg, 100.0 * worst);
+        EXPECT_LT(worst, 1e-4);
+    }
+}
+
 // As a map of 1024 x 1024 asks: 24 tiles of 32 x 32 rays, neighbours 2.5 mrad apart.
 std::vector<CloudRay> tiles_of_rays(double lowest, double highest) {
     std::vector<CloudRay> rays;
