@@ -141,8 +141,8 @@ Flashes flashes_at(const Scene& scene) noexcept {
         const double mean = std::min(lightning.flashes_per_min / 60.0 * kSlot_s, kMostPerSlot);
         const auto now = static_cast<std::int64_t>(std::floor(scene.time_s / kSlot_s));
         for (const std::int64_t slot : {now - 1, now}) {
-            const std::uint64_t key =
-                mixed(static_cast<std::uint64_t>(slot)) ^ mixed(mixed(lightning.seed) + lightning.layer);
+            // By the seed alone: where the layer stands among others changes with them and with the eye.
+            const std::uint64_t key = mixed(static_cast<std::uint64_t>(slot)) ^ mixed(mixed(lightning.seed));
             const int count = count_of(mean, unit_of(mixed(key)));
             for (int i = 0; i < count; ++i) {
                 add(sum, where, key + 1 + static_cast<std::uint64_t>(i), static_cast<double>(slot) * kSlot_s,

@@ -81,9 +81,9 @@ WeatherControl control_of(const config::WeatherLayer& layer, const config::Air& 
     made.transition_band = static_cast<float>(layer.bottom_band_m);
     made.top_transition_band = static_cast<float>(layer.top_band_m);
     made.aerosol = static_cast<float>(water_g_m3(layer.rate_mm_h));
-    made.wind_horizontal =
-        static_cast<float>(layer.wind_m_s.value_or(air.wind_m_s * wind_gain(layer.base_m)));
-    made.wind_direction = static_cast<float>(layer.wind_m_s ? layer.wind_from_deg : air.wind_from_deg);
+    // Without one it goes by whatever wind the air has then.
+    made.wind_horizontal = static_cast<float>(layer.wind_m_s.value_or(0.0));
+    made.wind_direction = static_cast<float>(layer.wind_m_s ? layer.wind_from_deg : 0.0);
     return made;
 }
 

@@ -33,7 +33,7 @@ enum class LayerId : std::uint8_t {
 [[nodiscard]] double wind_gain(double height_agl_m) noexcept;
 
 /// Global layers, each enabled. A cloud of an id that is there already, or another layer of a type that is,
-/// takes its place. Without a wind of its own a layer has the air's by height.
+/// takes its place. Without a wind of its own, or of 0 m/s, a layer tells none.
 [[nodiscard]] std::vector<protocol::cigi::WeatherControl> weather_controls(
     std::span<const config::WeatherLayer> layers, const config::Air& air, double elevation_m);
 

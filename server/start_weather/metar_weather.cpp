@@ -22,7 +22,8 @@ using metar::Phenomenon;
 
 /// -ln(0.05): reports use the meteorological optical range.
 const double kMor = -std::log(0.05);
-/// A layer's part of what dims the view: the rest is haze, so that its visibility stays a number.
+/// The most that layers take of what dims the view, where the air before was hazier than the report tells:
+/// the rest is haze, so that its visibility stays a number.
 constexpr double kMostOfLayer = 0.9;
 constexpr double kTopWithoutCloud_m = 1500.0;
 
@@ -76,7 +77,8 @@ class Reading {
 
     void read_extinction() {
         const config::Air& air = made_.air;
-        extinction_per_m_ = -std::log(air.visibility_contrast) / air.visibility_m;
+        const double before = -std::log(air.visibility_contrast) / air.visibility_m;
+        extinction_per_m_ = before;
         const auto visibility_m = [this]() -> std::optional<double> {
             if (report_.cavok) return 10'000.0;
             if (!report_.visibility) return std::nullopt;
@@ -89,8 +91,10 @@ class Reading {
             report_.cavok ||
             (report_.visibility && (report_.visibility->comparison == metar::Comparison::kAtLeast ||
                                     report_.visibility->comparison == metar::Comparison::kAbove));
-        extinction_per_m_ = or_more ? std::min(told, extinction_per_m_) : told;
-        left_per_m_ = kMostOfLayer * extinction_per_m_;
+        // Haze that was there before stays: what falls never clears the air.
+        left_per_m_ = told > before ? told - before : kMostOfLayer * told;
+        beside_air_ = or_more && told > before;
+        if (!beside_air_) extinction_per_m_ = told;
     }
 
     void read_clouds() {
@@ -213,6 +217,8 @@ class Reading {
         WeatherLayer& layer = add_ground(type, falls_from_m());
         layer.severity = 1 + static_cast<int>(intensity);
         layer.rate_mm_h = rate_of_severity_mm_h(kind, layer.severity);
+        // Nothing limits it: left to the rate.
+        if (!left_per_m_) return;
         dim_by_last_layer(
             render::precipitation::extinction_per_m(kind, layer.rate_mm_h, made_.air.temperature_c));
     }
@@ -229,7 +235,8 @@ class Reading {
 
     void add_lifted(LayerType type) {
         add_ground(type, kTopWithoutCloud_m);
-        dim_by_last_layer(extinction_per_m_);
+        dim_by_last_layer(kMostOfLayer *
+                          (beside_air_ ? extinction_per_m_ + *left_per_m_ : extinction_per_m_));
     }
 
     WeatherLayer& add_ground(LayerType type, double top_m) {
@@ -239,11 +246,11 @@ class Reading {
         return layer;
     }
 
-    /// Leaves the sum at the ground as it was reported.
+    /// Leaves the sum at the ground as it was reported; without a report of it the air as it was.
     void dim_by_last_layer(double wanted_per_m) {
-        const double taken = std::min(wanted_per_m, left_per_m_);
-        left_per_m_ -= taken;
-        taken_per_m_ += taken;
+        const double taken = std::min(wanted_per_m, left_per_m_.value_or(0.0));
+        if (left_per_m_) *left_per_m_ -= taken;
+        if (!beside_air_) taken_per_m_ += taken;
         dimming_.push_back({made_.layers.size() - 1, taken});
     }
 
@@ -273,10 +280,14 @@ class Reading {
 
     const metar::Report& report_;
     MetarWeather made_;
-    /// At the ground, in all.
+    /// At the ground: in all, or of the air alone if layers come beside it.
     double extinction_per_m_ = 0.0;
-    double left_per_m_ = 0.0;
+    /// For layers; none where no visibility is reported.
+    std::optional<double> left_per_m_;
+    /// From the air by layers.
     double taken_per_m_ = 0.0;
+    /// The report allows more than the air has: "10 km or more".
+    bool beside_air_ = false;
     std::vector<Dimming> dimming_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace skyig::server::weather {
 namespace {
@@ -21,6 +22,19 @@ double azimuth_rad(const glm::dvec3& way, const glm::dvec3& east, const glm::dve
 }
 
 }  // namespace
+
+GroundArea mix(const GroundArea& from, const GroundArea& to, double t) noexcept {
+    if (t <= 0.0 || from == to) return from;
+    if (t >= 1.0) return to;
+    GroundArea mixed;
+    mixed.centre = world::geodetic_of(glm::mix(world::ecef_of(from.centre), world::ecef_of(to.centre), t));
+    const double turn_rad = std::remainder(to.rotation_rad - from.rotation_rad, 2.0 * std::numbers::pi);
+    mixed.rotation_rad = from.rotation_rad + t * turn_rad;
+    mixed.half_size_m = glm::mix(from.half_size_m, to.half_size_m, t);
+    mixed.corner_radius_m = std::lerp(from.corner_radius_m, to.corner_radius_m, t);
+    mixed.perimeter_m = std::lerp(from.perimeter_m, to.perimeter_m, t);
+    return mixed;
+}
 
 EyePlane::EyePlane(const render::Eye& eye) noexcept
     : ecef_m_(world::ecef_of(below(eye))),

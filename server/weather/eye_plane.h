@@ -21,6 +21,10 @@ struct GroundArea {
     friend bool operator==(const GroundArea&, const GroundArea&) = default;
 };
 
+/// Part `t` of the way, 0..1: the centre along the chord, the axis the shorter way round, the rest member by
+/// member. At 0 and 1 the one and the other to the last bit.
+[[nodiscard]] GroundArea mix(const GroundArea& from, const GroundArea& to, double t) noexcept;
+
 /// Below one eye. From chords: within 1 m of the geodesic up to 300 km, poles and antimeridian too. 0.1
 /// microseconds a place.
 class EyePlane {

@@ -116,7 +116,7 @@ void Gatherer::add_entities(const world::World& world, const EyePlane& plane, co
 }
 
 double Gatherer::uncovered(const ToldLayer& layer) const noexcept {
-    const auto scope = static_cast<WeatherScope>(layer.key.place >> 24U);
+    const WeatherScope scope = scope_of(layer.key);
     // Weather of entities lies over all other.
     if (scope == WeatherScope::kEntity) return 1.0;
     std::uint64_t sent = 0;

@@ -4,7 +4,7 @@
 
 namespace skyig::server::weather {
 
-LayerState mix(Family family, const LayerState& from, const LayerState& to, double t) noexcept {
+LayerState mix(const LayerState& from, const LayerState& to, double t) noexcept {
     const auto between = [&](double LayerState::*member) {
         return from.*member == to.*member ? to.*member : std::lerp(from.*member, to.*member, t);
     };
@@ -15,8 +15,6 @@ LayerState mix(Family family, const LayerState& from, const LayerState& to, doub
     mixed.top_band_m = between(&LayerState::top_band_m);
     mixed.coverage = between(&LayerState::coverage);
     mixed.extinction_per_m = between(&LayerState::extinction_per_m);
-    if (family == Family::kCloud && (from.extinction_per_m == 0.0 || to.extinction_per_m == 0.0))
-        mixed.extinction_per_m = (t < 0.5 ? from : to).extinction_per_m;
     mixed.rate_mm_h = between(&LayerState::rate_mm_h);
     mixed.severity = between(&LayerState::severity);
     mixed.bottom_scud = between(&LayerState::bottom_scud);

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "protocol/cigi/packets.h"
 #include "render/weather.h"
 #include "server/weather/eye_plane.h"
 
@@ -20,7 +21,6 @@ struct LayerState {
     double top_band_m = 0.0;
     /// 0..1
     double coverage = 0.0;
-    /// 0 of a cloud: what its genus has.
     double extinction_per_m = 0.0;
     double rate_mm_h = 0.0;
     double severity = 0.0;
@@ -42,6 +42,10 @@ struct LayerKey {
     friend bool operator==(const LayerKey&, const LayerKey&) = default;
 };
 
+[[nodiscard]] inline protocol::cigi::WeatherScope scope_of(const LayerKey& key) noexcept {
+    return static_cast<protocol::cigi::WeatherScope>(key.place >> 24U);
+}
+
 /// A layer as it is told.
 struct ToldLayer {
     LayerKey key;
@@ -56,9 +60,8 @@ struct ToldLayer {
     double distance_m = 0.0;
 };
 
-/// Part `t` of the way, member by member. Extinction goes linearly; that of a cloud from or to its genus' own
-/// changes at the middle.
-[[nodiscard]] LayerState mix(Family family, const LayerState& from, const LayerState& to, double t) noexcept;
+/// Part `t` of the way, member by member.
+[[nodiscard]] LayerState mix(const LayerState& from, const LayerState& to, double t) noexcept;
 
 /// The layer as it begins and ends: clouds without coverage, the others without extinction and rate.
 [[nodiscard]] LayerState nothing_of(Family family, const LayerState& state) noexcept;

@@ -38,15 +38,27 @@ void Ramps::tell(const ToldLayer& told) noexcept {
     if (found == shown_.end()) {
         if (shown_.size() == kMost) return;
         const LayerState nothing = nothing_of(told.key.family, told.state);
-        shown_.push_back({told, nothing, told.uncovered, {}, nothing, time_s_, false});
+        shown_.push_back(
+            {told, nothing, told.uncovered, told.area, nothing, time_s_, told.area, time_s_, false});
         return;
     }
+    tell_area(*found, told);
     if (found->told.state != told.state) {
         found->from = found->state;
         found->since_s = time_s_;
     }
     found->told = told;
     found->ends = false;
+}
+
+void Ramps::tell_area(ShownLayer& layer, const ToldLayer& told) const noexcept {
+    const bool carried = scope_of(told.key) == protocol::cigi::WeatherScope::kEntity;
+    if (carried || !told.area || !layer.area) {
+        layer.area = layer.from_area = told.area;
+    } else if (told.area != layer.told.area) {
+        layer.from_area = layer.area;
+        layer.area_since_s = time_s_;
+    }
 }
 
 void Ramps::move(ShownLayer& layer, double time_s, double step_s, bool at_once) const noexcept {
@@ -62,10 +74,15 @@ void Ramps::move(ShownLayer& layer, double time_s, double step_s, bool at_once) 
         layer.state = layer.from = layer.told.state;
         layer.since_s = time_s;
         layer.uncovered = layer.told.uncovered;
+        layer.area = layer.from_area = layer.told.area;
         return;
     }
     const double part = std::clamp((time_s - layer.since_s) / transition_s_, 0.0, 1.0);
-    layer.state = mix(layer.told.key.family, layer.from, layer.told.state, part);
+    layer.state = mix(layer.from, layer.told.state, part);
+    if (layer.from_area && layer.told.area) {
+        const double of_area = std::clamp((time_s - layer.area_since_s) / transition_s_, 0.0, 1.0);
+        layer.area = mix(*layer.from_area, *layer.told.area, of_area);
+    }
     const double most = step_s / transition_s_;
     layer.uncovered += std::clamp(layer.told.uncovered - layer.uncovered, -most, most);
 }

@@ -2,38 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "server/weather/layer_state.h"
 
 namespace skyig::server::weather {
-
-/// How far the wind has carried something since scene time 0: exact while the wind holds, without a jump
-/// when it changes.
-class Drift {
-  public:
-    /// East and north, metres.
-    [[nodiscard]] glm::dvec2 at(double time_s) const noexcept {
-        return offset_m_ + wind_m_s_ * (time_s - since_s_);
-    }
-    /// The first wind has blown since scene time 0.
-    void set_wind(const glm::dvec2& wind_m_s, double time_s) noexcept {
-        if (blows_ && wind_m_s == wind_m_s_) return;
-        if (blows_) {
-            offset_m_ = at(time_s);
-            since_s_ = time_s;
-        }
-        wind_m_s_ = wind_m_s;
-        blows_ = true;
-    }
-
-  private:
-    glm::dvec2 offset_m_{0.0};
-    glm::dvec2 wind_m_s_{0.0};
-    double since_s_ = 0.0;
-    bool blows_ = false;
-};
 
 /// A value on its way: linear in scene time, from where it was when it was told otherwise.
 class Glide {
@@ -58,18 +33,22 @@ struct ShownLayer {
     /// At the frame at hand.
     LayerState state;
     double uncovered = 1.0;
-    Drift drift;
+    /// Everywhere, if none.
+    std::optional<GroundArea> area;
 
     /// Where the change began.
     LayerState from;
     double since_s = 0.0;
+    std::optional<GroundArea> from_area;
+    double area_since_s = 0.0;
     /// It is not told any more, and on its way to nothing.
     bool ends = false;
 };
 
 /// Linear in scene time over `transition_s`; a new layer grows from nothing, one that is told no more goes to
-/// nothing and is forgotten. What layers cover of each other at the eye is limited to the same pace. Depends
-/// on what is told and on scene time alone. Allocates at construction only.
+/// nothing and is forgotten. Areas move and grow alike, but for those that an entity carries: they are where
+/// it is. What layers cover of each other at the eye is limited to the same pace. Depends on what is told and
+/// on scene time alone. Allocates at construction only.
 class Ramps {
   public:
     /// Told layers and those that end.
@@ -84,6 +63,7 @@ class Ramps {
 
   private:
     void tell(const ToldLayer& told) noexcept;
+    void tell_area(ShownLayer& layer, const ToldLayer& told) const noexcept;
     void move(ShownLayer& layer, double time_s, double step_s, bool at_once) const noexcept;
     void forget_ended(double time_s, bool at_once) noexcept;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/cloud/field/shapes.h"
 #include "render/precipitation/extinction.h"
 #include "server/start_weather/genus.h"
 #include "server/start_weather/layers.h"
@@ -104,12 +105,16 @@ double extinction_m2_g(std::uint8_t obscurant) noexcept {
     }
 }
 
-/// By what is told of visibility; without it by what hangs in the air, or falls.
+/// By what is told of visibility; without it by genus, by what hangs in the air, or falls.
 double extinction_per_m(const WeatherControl& control, const Kind& kind, const Meaning& meaning,
                         double rate_mm_h) noexcept {
     const double visibility_m = static_cast<double>(control.visibility);
     const double told = visibility_m > 0.0 ? -std::log(meaning.contrast) / visibility_m : 0.0;
-    if (kind.family == Family::kCloud) return std::min(told, kDensest_per_m);
+    if (kind.family == Family::kCloud) {
+        const double own = static_cast<double>(
+            render::cloud::field::genus_of(static_cast<CloudGenus>(kind.number)).extinction_per_m);
+        return told > 0.0 ? std::min(told, kDensest_per_m) : own;
+    }
     if (told > 0.0) return std::clamp(told - meaning.air_extinction_per_m, 0.0, kDensest_per_m);
     if (kind.family == Family::kFalling) {
         return render::precipitation::extinction_per_m(static_cast<Precipitation::Kind>(kind.number),

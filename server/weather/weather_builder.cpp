@@ -59,7 +59,7 @@ double weight_at_height(const LayerState& state, double height_m) noexcept {
     return outside_m < band_m ? 1.0 - outside_m / band_m : 0.0;
 }
 
-Obscurant obscurant_of(const ShownLayer& layer, Obscurant::Kind kind, double time_s,
+Obscurant obscurant_of(const ShownLayer& layer, Obscurant::Kind kind, const glm::dvec2& drift_m,
                        const std::optional<WeatherArea>& area) noexcept {
     const LayerState& state = layer.state;
     Obscurant obscurant;
@@ -69,7 +69,7 @@ Obscurant obscurant_of(const ShownLayer& layer, Obscurant::Kind kind, double tim
     obscurant.bottom_band_m = state.bottom_band_m;
     obscurant.top_band_m = state.top_band_m;
     obscurant.extinction_per_m = state.extinction_per_m * layer.uncovered;
-    obscurant.drift_m = layer.drift.at(time_s);
+    obscurant.drift_m = drift_m;
     obscurant.seed = seed_of(layer.told.key);
     obscurant.area = area;
     return obscurant;
@@ -89,6 +89,7 @@ WeatherBuilder::WeatherBuilder(const WeatherSettings& settings)
 
 void WeatherBuilder::build(const world::World& world, render::Scene& scene) {
     render::Weather& weather = scene.weather;
+    if (world.resets() != resets_) drifts_.forget();
     const bool at_once = jumped(world, scene.time_s);
     const EyePlane plane(scene.eye);
     if (settings_.keyframes) {
@@ -103,8 +104,7 @@ void WeatherBuilder::build(const world::World& world, render::Scene& scene) {
     const Meaning meaning{-std::log(contrast) / std::max(scene.air.visibility_m, 1.0), contrast,
                           settings_.elevation_m, scene.air.temperature_c};
     ramps_.advance(gatherer_.gather(world, plane, meaning), scene.time_s, at_once);
-    for (ShownLayer& layer : ramps_.shown())
-        layer.drift.set_wind(wind_of(layer.told, world.air()), scene.time_s);
+    carry(world.air(), scene.time_s);
     left_out_ = gatherer_.left_out();
     settle_air(scene, at_once);
     rain_mm_h_ = 0.0;
@@ -169,8 +169,8 @@ void WeatherBuilder::show(const EyePlane& plane, const render::Scene& scene,
     for (std::size_t i = 0; i < shown.size(); ++i) {
         order_[i] = static_cast<std::uint8_t>(i);
         distance_m_[i] = 0.0;
-        if (!shown[i].told.area) continue;
-        areas[i] = plane.place(*shown[i].told.area);
+        if (!shown[i].area) continue;
+        areas[i] = plane.place(*shown[i].area);
         distance_m_[i] = std::max(render::area_distance_m(*areas[i], kEye) - areas[i]->perimeter_m, 0.0);
     }
     std::sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(shown.size()),
@@ -187,7 +187,7 @@ void WeatherBuilder::show(const EyePlane& plane, const render::Scene& scene,
                 show_cloud(layer, scene, area, weather);
                 break;
             case Family::kObscurant:
-                show_obscurant(layer, scene.time_s, area, weather);
+                show_obscurant(layer, area, weather);
                 break;
             case Family::kFalling:
                 show_falling(layer, scene, area, weather);
@@ -218,7 +218,7 @@ void WeatherBuilder::show_cloud(const ShownLayer& layer, const render::Scene& sc
     cloud.top_band_m = state.top_band_m;
     cloud.coverage = coverage;
     cloud.extinction_per_m = state.extinction_per_m;
-    cloud.drift_m = layer.drift.at(scene.time_s);
+    cloud.drift_m = drifts_.at(layer.told.key.place);
     cloud.age_s = scene.time_s;
     cloud.bottom_scud = state.bottom_scud;
     cloud.top_scud = state.top_scud;
@@ -227,10 +227,10 @@ void WeatherBuilder::show_cloud(const ShownLayer& layer, const render::Scene& sc
     cloud.area = area;
 }
 
-void WeatherBuilder::show_obscurant(const ShownLayer& layer, double time_s,
-                                    const std::optional<WeatherArea>& area,
+void WeatherBuilder::show_obscurant(const ShownLayer& layer, const std::optional<WeatherArea>& area,
                                     render::Weather& weather) noexcept {
-    Obscurant made = obscurant_of(layer, static_cast<Obscurant::Kind>(layer.told.key.kind), time_s, area);
+    const LayerKey& key = layer.told.key;
+    Obscurant made = obscurant_of(layer, static_cast<Obscurant::Kind>(key.kind), drifts_.at(key.place), area);
     made.coverage = layer.state.coverage;
     if (made.extinction_per_m <= 0.0) return;
     if (weather.obscurant_count == render::Weather::kMaxObscurants) {
@@ -244,8 +244,8 @@ void WeatherBuilder::show_falling(const ShownLayer& layer, const render::Scene& 
                                   const std::optional<WeatherArea>& area, render::Weather& weather) noexcept {
     const auto kind = static_cast<Precipitation::Kind>(layer.told.key.kind);
     const bool snow = kind == Precipitation::Kind::kSnow;
-    const Obscurant made =
-        obscurant_of(layer, snow ? Obscurant::Kind::kSnow : Obscurant::Kind::kRain, scene.time_s, area);
+    const Obscurant made = obscurant_of(layer, snow ? Obscurant::Kind::kSnow : Obscurant::Kind::kRain,
+                                        drifts_.at(layer.told.key.place), area);
     if (made.extinction_per_m > 0.0) {
         if (weather.obscurant_count == render::Weather::kMaxObscurants) {
             ++left_out_;
@@ -287,10 +287,14 @@ void WeatherBuilder::soak(double time_s, bool at_once) noexcept {
     }
 }
 
-glm::dvec2 WeatherBuilder::wind_of(const ToldLayer& layer, const world::AirState& air) const noexcept {
-    if (layer.wind_m_s) return *layer.wind_m_s;
-    return wind_gain(layer.state.base_m - settings_.elevation_m) *
-           wind_towards_m_s(air.wind_horizontal_m_s, air.wind_from_deg);
+void WeatherBuilder::carry(const world::AirState& air, double time_s) noexcept {
+    drifts_.set_air(wind_towards_m_s(air.wind_horizontal_m_s, air.wind_from_deg), time_s);
+    for (const ShownLayer& layer : ramps_.shown()) {
+        // One that ends drifts with what has come in its place.
+        if (layer.ends) continue;
+        const ToldLayer& told = layer.told;
+        drifts_.carry(told.key.place, {told.wind_m_s, wind_gain(told.state.base_m - settings_.elevation_m)});
+    }
 }
 
 glm::dvec3 WeatherBuilder::wind_at_eye(const world::World& world, const EyePlane& plane,

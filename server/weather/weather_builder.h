@@ -8,6 +8,7 @@
 
 #include "config/weather.h"
 #include "render/scene.h"
+#include "server/weather/drifts.h"
 #include "server/weather/gather.h"
 #include "server/weather/ramps.h"
 #include "server/world/world.h"
@@ -52,19 +53,19 @@ class WeatherBuilder {
     void show(const EyePlane& plane, const render::Scene& scene, render::Weather& weather) noexcept;
     void show_cloud(const ShownLayer& layer, const render::Scene& scene,
                     const std::optional<render::WeatherArea>& area, render::Weather& weather) noexcept;
-    void show_obscurant(const ShownLayer& layer, double time_s,
-                        const std::optional<render::WeatherArea>& area, render::Weather& weather) noexcept;
+    void show_obscurant(const ShownLayer& layer, const std::optional<render::WeatherArea>& area,
+                        render::Weather& weather) noexcept;
     void show_falling(const ShownLayer& layer, const render::Scene& scene,
                       const std::optional<render::WeatherArea>& area, render::Weather& weather) noexcept;
     void soak(double time_s, bool at_once) noexcept;
-    /// Of the layer, or by height.
-    [[nodiscard]] glm::dvec2 wind_of(const ToldLayer& layer, const world::AirState& air) const noexcept;
+    void carry(const world::AirState& air, double time_s) noexcept;
     [[nodiscard]] glm::dvec3 wind_at_eye(const world::World& world, const EyePlane& plane,
                                          const render::Eye& eye) const noexcept;
 
     WeatherSettings settings_;
     Gatherer gatherer_;
     Ramps ramps_;
+    Drifts drifts_;
     Glide air_per_m_{0.0};
     std::array<std::uint8_t, Ramps::kMost> order_{};
     std::array<double, Ramps::kMost> distance_m_{};

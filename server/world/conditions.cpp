@@ -83,10 +83,13 @@ AirValues air_values(double visibility_m, double temperature_c, double humidity_
             wind_up_m_s};
 }
 
-AirValues air_values(const WeatherControl& layer) noexcept {
+/// A layer that tells no wind along the ground has that of the base state.
+AirValues air_values(const WeatherControl& layer, const AirState& base) noexcept {
+    const bool own_wind = layer.wind_horizontal > 0.0F;
     return air_values(static_cast<double>(layer.visibility), static_cast<double>(layer.air_temperature),
                       static_cast<double>(layer.humidity), static_cast<double>(layer.pressure),
-                      static_cast<double>(layer.wind_horizontal), static_cast<double>(layer.wind_direction),
+                      own_wind ? static_cast<double>(layer.wind_horizontal) : base.wind_horizontal_m_s,
+                      own_wind ? static_cast<double>(layer.wind_direction) : base.wind_from_deg,
                       static_cast<double>(layer.wind_vertical));
 }
 
@@ -152,7 +155,7 @@ AirState air_at(const AirState& base, const WeatherStore& weather, const Regions
                    base.wind_horizontal_m_s, base.wind_from_deg, base.wind_vertical_m_s),
         kAirTogether);
     const auto add = [&](const WeatherControl& layer, double weight) {
-        blend.add(weight, air_values(layer));
+        blend.add(weight, air_values(layer, base));
     };
     each_layer(
         weather.layers_of(WeatherScope::kGlobal, 0), 1.0, height_m, [] {}, add);

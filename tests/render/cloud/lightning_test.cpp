@@ -100,6 +100,29 @@ TEST(Lightning, OfOneMomentIsTheSameWhateverWasAskedBefore) {
     EXPECT_GT(unlike, 50);
 }
 
+TEST(Lightning, IsTheSameWhereverItsLayerStandsAmongTheOthers) {
+    Scene second = stormy_scene(12.0);
+    Scene first = second;
+    first.weather.clouds[0] = second.weather.clouds[1];
+    first.weather.cloud_count = 1;
+    first.weather.lightnings[0].layer = 0;
+    int lit = 0;
+    for (int i = 0; i < 6000; ++i) {
+        first.time_s = second.time_s = 0.1 * i;
+        const Flashes here = flashes_at(first);
+        const Flashes there = flashes_at(second);
+        ASSERT_EQ(here.count, there.count);
+        for (std::size_t k = 0; k < here.count; ++k) {
+            EXPECT_EQ(here.flashes[k].place_m, there.flashes[k].place_m);
+            EXPECT_EQ(here.flashes[k].intensity_cd, there.flashes[k].intensity_cd);
+            EXPECT_EQ(here.flashes[k].layer, 0U);
+            EXPECT_EQ(there.flashes[k].layer, 1U);
+        }
+        lit += here.count > 0;
+    }
+    EXPECT_GT(lit, 500);
+}
+
 TEST(Lightning, StandsStillOnTheEarthInItsCloudWithinReach) {
     Scene scene = stormy_scene(60.0);
     Scene moved = scene;

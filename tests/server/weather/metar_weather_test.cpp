@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "protocol/metar/decode.h"
+#include "render/precipitation/extinction.h"
 
 namespace skyig::server {
 namespace {
@@ -203,6 +204,35 @@ TEST(MetarWeather, RatesGoByIntensity) {
         EXPECT_EQ(made.layers[1].type, row.type) << row.report;
         EXPECT_DOUBLE_EQ(made.layers[1].rate_mm_h, row.rate_mm_h) << row.report;
     }
+}
+
+TEST(MetarWeather, WhatFallsDimsWhereTheReportTellsNoVisibilityOrTenKilometresAndMore) {
+    const config::Air before;
+    const double haze = extinction(before.visibility_m);
+    for (const char* wet : {"RA OVC010", "-RA OVC010", "+SN OVC010", "DZ OVC010"}) {
+        const MetarWeather far = of((std::string{"METAR LSZH 221520Z 24010KT 9999 "} + wet).c_str());
+        EXPECT_DOUBLE_EQ(far.air.visibility_m, before.visibility_m) << wet << ": not cleared";
+        const config::WeatherLayer& falls = far.layers.back();
+        const double own = extinction(falls.visibility_m) - haze;
+        const auto kind = falls.type == LayerType::kRain   ? render::Precipitation::Kind::kRain
+                          : falls.type == LayerType::kSnow ? render::Precipitation::Kind::kSnow
+                                                           : render::Precipitation::Kind::kDrizzle;
+        const double law = render::precipitation::extinction_per_m(kind, falls.rate_mm_h, 15.0);
+        EXPECT_NEAR(own, std::min(law, extinction(10e3) - haze), 1e-9) << wet << ": 10 km are left";
+        const MetarWeather untold = of((std::string{"METAR LSZH 221520Z 24010KT //// "} + wet).c_str());
+        EXPECT_EQ(untold.layers.back().visibility_m, 0.0) << wet << ": left to the rate";
+        EXPECT_DOUBLE_EQ(untold.air.visibility_m, before.visibility_m) << wet;
+    }
+    // A report of a number leaves the haze too; one that is clearer than the air before makes it clearer.
+    const MetarWeather near = of("METAR LSZH 221520Z 24010KT 5000 RA OVC010");
+    EXPECT_NEAR(extinction(near.layers.back().visibility_m), extinction(5000.0), 1e-9);
+    EXPECT_LE(near.air.visibility_m, before.visibility_m * 1.000001);
+    config::Air hazy;
+    hazy.visibility_m = 5000.0;
+    const MetarWeather clearer =
+        metar_weather(protocol::metar::decode("METAR LSZH 221520Z 24010KT 9999 RA OVC010"), hazy);
+    EXPECT_NEAR(extinction(clearer.layers.back().visibility_m), extinction(10e3), 1e-9);
+    EXPECT_GT(clearer.layers.back().visibility_m, 0.0);
 }
 
 TEST(MetarWeather, AThunderstormWithoutCloudsGetsOne) {

@@ -68,6 +68,31 @@ TEST(Ramps, EveryMemberGoesItsWayAndTurnsBackWithoutAStep) {
     EXPECT_EQ(bench.weather().clouds[0].base_m, 300.0);
 }
 
+TEST(Ramps, ACloudThatIsToldAVisibilityGoesThereEvenlyFromWhatItsGenusHas) {
+    for (const CloudType type : {CloudType::kCumulus, CloudType::kStratus, CloudType::kCirrostratus}) {
+        WeatherBench bench;
+        WeatherControl layer = cloud(1, type, 1000.0F, 100.0F);
+        bench.send(layer);
+        bench.settle();
+        const double own = bench.weather().clouds[0].extinction_per_m;
+        layer.visibility = 20.0F;
+        const double told = -std::log(0.05) / 20.0;
+        double before = own, largest = 0.0;
+        for (const float visibility_m : {20.0F, 0.0F}) {
+            layer.visibility = visibility_m;
+            bench.send(layer);
+            for (int i = 0; i < 620; ++i) {
+                const double now = bench.frame(kFrame_s).weather.clouds[0].extinction_per_m;
+                largest = std::max(largest, std::abs(now - before));
+                before = now;
+            }
+            EXPECT_NEAR(before, visibility_m > 0.0F ? told : own, 1e-9);
+        }
+        EXPECT_GT(own, 0.0);
+        EXPECT_LE(largest, (told - own) * kPart * 1.001);
+    }
+}
+
 /// A host may stream its own slow change: what is shown follows, and does not stand still.
 TEST(Ramps, WhatChangesInEveryFrameIsFollowed) {
     WeatherBench bench;
@@ -193,22 +218,36 @@ TEST(Ramps, ARegionThatOpensHidesGraduallyToo) {
     EXPECT_EQ(before, 0.0);
 }
 
-TEST(Drift, IsExactOverADayAndGoesOnWhenTheWindTurns) {
-    Drift drift;
-    const glm::dvec2 west{12.3, -4.5};
-    drift.set_wind(west, 100.0);
-    EXPECT_EQ(drift.at(0.0), glm::dvec2(0.0)) << "the first wind has blown since scene time 0";
-    double worst_m = 0.0;
-    for (int frame = 6000; frame < 86400 * 60; frame += 977) {
-        const double time_s = frame / 60.0;
-        drift.set_wind(west, time_s);
-        worst_m = std::max(worst_m, glm::distance(drift.at(time_s), west * time_s));
+TEST(Ramps, ARegionThatIsToldLargerGrowsMovesAndTurnsEvenly) {
+    WeatherBench bench;
+    auto told = region(1, 47.4582, 8.5555, 4e3F, 500.0F);
+    bench.send(told, in_region(cloud(1, CloudType::kCumulus, 1000.0F, 50.0F), 1));
+    bench.settle();
+    told.size_x = told.size_y = 40e3F;
+    told.corner_radius = 1e3F;
+    told.transition_perimeter = 4e3F;
+    told.latitude += 0.18;  // 20 km
+    told.rotation = -90.0F;
+    bench.send(told);
+    render::WeatherArea before = *bench.weather().clouds[0].area;
+    EXPECT_EQ(before.half_size_m.x, 2e3);
+    double grown_m = 0.0, moved_m = 0.0, turned_rad = 0.0, faded_m = 0.0;
+    for (int i = 0; i < 620; ++i) {
+        const render::WeatherArea now = *bench.frame(kFrame_s).weather.clouds[0].area;
+        grown_m = std::max(grown_m, std::abs(now.half_size_m.x - before.half_size_m.x));
+        moved_m = std::max(moved_m, glm::distance(now.centre_m, before.centre_m));
+        turned_rad = std::max(turned_rad, std::abs(now.axis_rad - before.axis_rad));
+        faded_m = std::max(faded_m, std::abs(now.perimeter_m - before.perimeter_m));
+        before = now;
     }
-    EXPECT_EQ(worst_m, 0.0);
-    const glm::dvec2 before = drift.at(86400.0);
-    drift.set_wind({-20.0, 0.0}, 86400.0);
-    EXPECT_EQ(drift.at(86400.0), before);
-    EXPECT_NEAR(drift.at(86410.0).x, before.x - 200.0, 1e-6);
+    std::printf("  a frame: %.1f m larger, %.1f m on, %.2f mrad round\n", grown_m, moved_m, 1e3 * turned_rad);
+    EXPECT_LE(grown_m, 17e3 * kPart * 1.001);
+    EXPECT_LE(moved_m, 20.1e3 * kPart * 1.001);
+    EXPECT_LE(turned_rad, M_PI / 2.0 * kPart * 1.01);
+    EXPECT_LE(faded_m, 3.5e3 * kPart * 1.001);
+    EXPECT_EQ(before.half_size_m.x, 19e3);
+    EXPECT_EQ(before.corner_radius_m, 1e3);
+    EXPECT_NEAR(before.centre_m.y, 20e3, 50.0);
 }
 
 }  // namespace

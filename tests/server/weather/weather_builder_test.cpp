@@ -84,6 +84,32 @@ TEST(WeatherBuilder, TheEyeHasItsOwnVelocityAndWind) {
     EXPECT_EQ(bench.weather().eye_velocity_m_s, glm::dvec3(0.0));
 }
 
+TEST(WeatherBuilder, AWindThatIsToldLaterMovesTheSettingsLayersToo) {
+    config::Config config = world::three_channels();
+    config.air.wind_m_s = 5.0;
+    config.air.wind_from_deg = 270.0;
+    config.start.height_m = 1000.0;
+    config::WeatherLayer cumulus, rain;
+    cumulus.type = config::LayerType::kCumulus;
+    cumulus.base_m = 1500.0;
+    cumulus.thickness_m = 500.0;
+    rain.type = config::LayerType::kRain;
+    rain.base_m = -1000.0;
+    rain.thickness_m = 2500.0;
+    rain.rate_mm_h = 5.0;
+    config.weather.layers = {cumulus, rain};
+    WeatherBench bench(config);
+    bench.settle();
+    EXPECT_NEAR(bench.weather().wind_m_s.x, 5.0 * wind_gain(1000.0), 1e-9) << "the eye's height counts";
+    bench.send(wind(40.0F, 180.0F));
+    bench.frame(1.0);
+    const glm::dvec2 before_m = bench.weather().clouds[0].drift_m;
+    const glm::dvec2 step_m = bench.frame(1.0).weather.clouds[0].drift_m - before_m;
+    EXPECT_NEAR(step_m.x, 0.0, 1e-6);
+    EXPECT_NEAR(step_m.y, 40.0 * wind_gain(1500.0), 1e-6);
+    EXPECT_NEAR(bench.weather().wind_m_s.y, 40.0 * wind_gain(1000.0), 1e-6);
+}
+
 /// What a busy host may have told: global layers, storms around, changes all the time.
 void tell(WeatherBench& bench, int frame) {
     WeatherControl layer =

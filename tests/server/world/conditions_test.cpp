@@ -115,6 +115,16 @@ TEST_F(ConditionsTest, LayersTogetherAddExtinctionAndAverageTheRest) {
     EXPECT_NEAR(air(1500.0).wind_horizontal_m_s, 0.0, 1e-9);
 }
 
+TEST_F(ConditionsTest, ALayerWithoutWindHasThatOfTheBaseState) {
+    base_.wind_horizontal_m_s = 12.0;
+    base_.wind_from_deg = 90.0;
+    WeatherControl still = layer(WeatherScope::kGlobal, 0, 1);
+    still.wind_horizontal = 0.0F;
+    ASSERT_TRUE(weather_.set(still));
+    EXPECT_NEAR(air(1500.0).wind_horizontal_m_s, 12.0, 1e-9);
+    EXPECT_NEAR(air(1500.0).wind_from_deg, 90.0, 1e-9);
+}
+
 TEST_F(ConditionsTest, SwitchedOffLayersDoNotCount) {
     WeatherControl off = layer(WeatherScope::kGlobal, 0, 1);
     off.weather_enable = false;
