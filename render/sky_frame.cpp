@@ -115,7 +115,9 @@ void SkyFrame::refresh_clouds(const Scene& scene, double pixel_rad) {
     const int size = quality_.cloud_map_size > 0 ? quality_.cloud_map_size
                                                  : cloud::map_size_for(pixel_rad, scene.channel_views());
     plan_clouds(plan_, scene, size, cloud::NearMap::kSize, false);
-    if (!plan_.needs(Pass::kClouds) || made_clouds_.maker == nullptr) {
+    // The last of clouds that go is still shown: by a map from which they go as they came.
+    const bool going = clouds_.shown() && !tables_.jumped() && !clouds_.map().is_clear();
+    if ((!plan_.needs(Pass::kClouds) && !going) || made_clouds_.maker == nullptr) {
         clouds_.stop();
         return;
     }

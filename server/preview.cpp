@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <utility>
 
 namespace skyig::server {
@@ -39,7 +40,11 @@ void Preview::offer(std::int64_t now_ns, const ReadBack& read_back) {
         if (now_ns - slot.asked_ns.load(std::memory_order_relaxed) > kAskedFor_ns) continue;
         if (slot.taken_ns != 0 && now_ns - slot.taken_ns < interval_ns) continue;
         slot.taken_ns = now_ns;
-        frame_.resize(bytes_of(channels_[i]));
+        try {
+            frame_.resize(bytes_of(channels_[i]));
+        } catch (const std::bad_alloc&) {
+            continue;  // who asks waits; the frame does not
+        }
         read_back(i, frame_);
         const std::scoped_lock lock(mutex_);
         std::swap(slot.rgba, frame_);

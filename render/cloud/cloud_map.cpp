@@ -41,8 +41,23 @@ bool same_weather(const Weather& a, const Weather& b) noexcept {
            a.lightnings == b.lightnings;
 }
 
-glm::dvec2 drift_of(const Weather& weather) noexcept {
-    return weather.cloud_count > 0 ? weather.clouds[0].drift_m : glm::dvec2{0.0};
+/// What the eye's displacement is measured against; null: there are no clouds.
+const CloudLayer* measured_layer(const Weather& weather) noexcept {
+    return weather.cloud_count > 0 ? &weather.clouds[0] : nullptr;
+}
+
+/// Null: it is not there any more.
+const CloudLayer* layer_of(const Weather& weather, std::uint32_t seed) noexcept {
+    const auto clouds = weather.all_clouds();
+    const auto found = std::find_if(clouds.begin(), clouds.end(),
+                                    [seed](const CloudLayer& layer) { return layer.seed == seed; });
+    return found == clouds.end() ? nullptr : &*found;
+}
+
+/// Whether the eye was carried to another place since the frame before: no craft covers so much in one.
+bool has_leapt(const Eye& before, const Eye& now) noexcept {
+    const glm::dvec3 way_m = eye_offset_m(before, now);
+    return std::hypot(way_m.x, way_m.y) > 500.0 + 0.02 * std::abs(now.height_m);
 }
 
 }  // namespace
@@ -75,7 +90,8 @@ void CloudMap::resize(int size, std::size_t probes) {
 void CloudMap::note_motion(const MapFrame& frame) noexcept {
     const Eye& now = frame.moment.eye;
     motion_a_frame_ = {};
-    if (last_eye_ && !frame.jumped) {
+    leapt_ = frame.jumped || (last_eye_ && has_leapt(*last_eye_, now));
+    if (last_eye_ && !leapt_) {
         motion_a_frame_ = {now.latitude_deg - last_eye_->latitude_deg,
                            std::remainder(now.longitude_deg - last_eye_->longitude_deg, 360.0),
                            now.height_m - last_eye_->height_m};
@@ -103,10 +119,13 @@ bool CloudMap::near_wanted(const MapFrame& frame) const noexcept {
 
 Frozen CloudMap::frozen_at(const MapFrame& frame, const Eye& eye) const noexcept {
     Frozen frozen{.eye = eye,
-                  .drift_m = drift_of(frame.moment.scene.weather),
                   .range = {},
                   .seen_horizon_rad = frame.seen_horizon_rad,
                   .straight_horizon_rad = frame.straight_horizon_rad};
+    if (const CloudLayer* layer = measured_layer(frame.moment.scene.weather)) {
+        frozen.drift_m = layer->drift_m;
+        frozen.seed = layer->seed;
+    }
     if (wanted_near_) frozen.range.from_m = static_cast<float>(kNearRange_m);
     return frozen;
 }
@@ -121,6 +140,7 @@ void CloudMap::begin(CloudMaker& maker, const MapFrame& frame, double frames_ahe
     frozen_light_ = frame.moment.light;
     sources_[next_] = &maker.freeze(next_, moment);
     snapshots_[next_].begin(frozen_at(frame, moment.eye));
+    drifted_m_[next_] = glm::dvec2{0.0};
     snapshots_[next_].march_probes(*sources_[next_], frame.probes, kProbe_rad);
     rays_ += static_cast<int>(frame.probes.size());
     list_tiles(frame.views, kMargin_rad, tiles_);
@@ -220,9 +240,11 @@ void CloudMap::tell_parts(const MapFrame& frame) noexcept {
     part_count_ = 0;
     const auto add = [&](std::size_t index, float weight) {
         const Frozen& frozen = snapshots_[index].frozen();
-        const glm::dvec2 drifted_m = drift_of(frame.moment.scene.weather) - frozen.drift_m;
+        // Layers come, go and change places; one that is gone stays where it was last.
+        if (const CloudLayer* layer = layer_of(frame.moment.scene.weather, frozen.seed))
+            drifted_m_[index] = layer->drift_m - frozen.drift_m;
         const glm::dvec3 offset_m =
-            eye_offset_m(frozen.eye, frame.moment.eye) - glm::dvec3{drifted_m.x, drifted_m.y, 0.0};
+            eye_offset_m(frozen.eye, frame.moment.eye) - glm::dvec3{drifted_m_[index], 0.0};
         parts_[part_count_++] = {&snapshots_[index], weight, glm::vec3{offset_m}, frozen.range.from_m > 0.0F};
     };
     const auto share = static_cast<float>(blend_) / static_cast<float>(kBlendFrames);
@@ -238,7 +260,7 @@ void CloudMap::update(CloudMaker& maker, const MapFrame& frame, int size, int ti
     note_motion(frame);
     wanted_near_ = near_wanted(frame);
     list_tiles(frame.views, 0.0, seen_);
-    if (!shown_ || frame.jumped) {
+    if (!shown_ || leapt_) {
         worker_.wait();
         maker.follow(frame.moment, static_cast<float>(geometry_.worst_texel_rad()), true);
         march_all(maker, frame);
@@ -248,6 +270,11 @@ void CloudMap::update(CloudMaker& maker, const MapFrame& frame, int size, int ti
     }
     tell_parts(frame);
     show_near(maker, frame);
+}
+
+bool CloudMap::is_clear() const noexcept {
+    return blend_ >= kBlendFrames && !marching_ &&
+           std::none_of(seen_.begin(), seen_.end(), [this](int tile) { return may_show(tile); });
 }
 
 bool CloudMap::may_show(int tile) const noexcept {

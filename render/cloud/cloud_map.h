@@ -27,7 +27,7 @@ struct MapFrame {
     std::span<const glm::vec3> probes;
     double seen_horizon_rad = 0.0;
     double straight_horizon_rad = 0.0;
-    /// Another scene altogether: everything is marched at once.
+    /// Another scene altogether: everything is marched at once, as when the eye has leapt.
     bool jumped = false;
 };
 
@@ -67,6 +67,8 @@ class CloudMap {
 
     /// Tiles that a view sees: all of them are known.
     [[nodiscard]] std::span<const int> seen_tiles() const noexcept { return seen_; }
+    /// Whether no view sees a cloud, nor will while there are none.
+    [[nodiscard]] bool is_clear() const noexcept;
     /// Whether a tile may show clouds.
     [[nodiscard]] bool may_show(int tile) const noexcept;
 
@@ -108,6 +110,7 @@ class CloudMap {
     std::vector<Corners> corners_;
     std::array<Snapshot, 3> snapshots_;
     std::array<const CloudSource*, 3> sources_{};
+    std::array<glm::dvec2, 3> drifted_m_{};  // since each was frozen
     std::size_t old_ = 0;
     std::size_t new_ = 1;
     std::size_t next_ = 2;
@@ -115,6 +118,7 @@ class CloudMap {
     bool shown_ = false;
     bool marching_ = false;
     bool wanted_near_ = false;
+    bool leapt_ = false;
     std::vector<int> seen_;
     std::vector<int> tiles_;  // that the next snapshot is to have
     std::size_t tiles_done_ = 0;

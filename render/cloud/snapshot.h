@@ -24,8 +24,9 @@ struct LightAndPassed {
 /// Of a moment, besides what the source knows.
 struct Frozen {
     Eye eye;
-    /// Of the layer that the eye's displacement is measured against.
+    /// Of the layer that the eye's displacement is measured against, and its seed.
     glm::dvec2 drift_m{0.0};
+    std::uint32_t seed = 0;
     CloudRange range;
     /// Directions are as seen; rays are straight. \see straight_elevation_rad()
     double seen_horizon_rad = 0.0;

@@ -132,6 +132,7 @@ class HttpServer::Loop {
     void go_on(Connection& connection, std::int64_t now_ns) noexcept;
     void read(Connection& connection, std::int64_t now_ns);
     void answer(Connection& connection, const HttpAnswer& answer, bool with_body, std::int64_t now_ns);
+    void tend(Connection& connection, std::int64_t now_ns) noexcept;
     void ask_again(Connection& connection, std::int64_t now_ns);
     void give_up(Connection& connection, std::int64_t now_ns);
     [[nodiscard]] HttpAnswer answer_to(const Head& head) const;
@@ -167,9 +168,7 @@ void HttpServer::Loop::run() {
         const std::int64_t now_ns = clock_.monotonic_ns();
         for (std::size_t i = 0; i < connections_.size(); ++i) {
             if (events_[i + 2].revents != 0) go_on(*connections_[i], now_ns);
-            if (connections_[i]->state == Connection::State::kWaiting) ask_again(*connections_[i], now_ns);
-            if (connections_[i]->socket && now_ns >= ends_ns(*connections_[i]))
-                give_up(*connections_[i], now_ns);
+            tend(*connections_[i], now_ns);
         }
         std::erase_if(connections_, [](const auto& connection) { return !connection->socket; });
         if (events_[1].revents != 0) take_new(now_ns);
@@ -277,6 +276,17 @@ void HttpServer::Loop::read(Connection& connection, std::int64_t now_ns) {
     const HttpAnswer made = answer_to(head);
     add(made.status == 200 || made.status == 503 ? answered_ : refused_);
     answer(connection, made, head.request.method != "HEAD", now_ns);
+}
+
+/// What is due without a word from the client.
+void HttpServer::Loop::tend(Connection& connection, std::int64_t now_ns) noexcept {
+    try {
+        if (connection.state == Connection::State::kWaiting) ask_again(connection, now_ns);
+        if (connection.socket && now_ns >= ends_ns(connection)) give_up(connection, now_ns);
+    } catch (const std::exception&) {
+        // Memory ran out: this client gets nothing.
+        connection.socket = {};
+    }
 }
 
 /// Sends what has come of an answer meanwhile.

@@ -132,10 +132,61 @@ TEST(CloudMapSchedule, FollowsAFixedNumberOfRaysAFrameAndNoneWhereAllStandsStill
     EXPECT_TRUE(frame.clouds().toned().empty()) << "nothing has moved";
     EXPECT_TRUE(frame.plan().needs(Pass::kClouds));
     EXPECT_FALSE(frame.plan().needs(Pass::kNearClouds));
-    scene.weather.cloud_count = 0;
+}
+
+TEST(CloudMapSchedule, CloudsThatGoLeaveNoGapFromOneFrameToTheNext) {
+    const FakeSheet sheet{.least_transmittance = 0.2, .most_transmittance = 0.2};
+    Scene scene = noon_scene(500.0);
+    add_layer(scene, sheet);
+    SkyFrame frame({}, coarse());
+    frame.draw_clouds(fake_clouds(sheet));
     frame.prepare(scene, 1.8e-3);
-    EXPECT_FALSE(frame.plan().needs(Pass::kClouds));
-    EXPECT_FALSE(frame.clouds().shown());
+    const glm::dvec3 ahead = at(20.0, 150.0);
+    double last = frame.clouds().transmittance(ahead), largest = 0.0;
+    EXPECT_NEAR(last, 0.2, 0.01);
+    scene.weather.cloud_count = 0;
+    int frames = 0;
+    for (; frames < 400 && frame.clouds().shown(); ++frames) {
+        frame.prepare(scene, 1.8e-3);
+        EXPECT_FALSE(frame.plan().needs(Pass::kClouds));
+        const double now = frame.clouds().shown() ? frame.clouds().transmittance(ahead) : 1.0;
+        largest = std::max(largest, std::abs(now - last));
+        last = now;
+    }
+    std::printf("gone after %d frames, largest step of what passes %.3f\n", frames, largest);
+    EXPECT_LT(frames, 400);
+    EXPECT_EQ(last, 1.0);
+    EXPECT_LT(largest, 0.8 * 1.6 / cloud::CloudMap::kBlendFrames);
+}
+
+TEST(CloudMapSchedule, TheOrderOfLayersMovesNothingAndALeapOfTheEyeBeginsAnew) {
+    const FakeSheet sheet{};
+    Scene scene = noon_scene(500.0);
+    for (const std::uint32_t seed : {1U, 2U}) {
+        add_layer(scene, sheet);
+        CloudLayer& layer = scene.weather.clouds[scene.weather.cloud_count - 1];
+        layer.seed = seed;
+        layer.drift_m = seed == 1U ? glm::dvec2{36e3, 0.0} : glm::dvec2{0.0, 54e3};
+    }
+    SkyFrame frame({}, coarse());
+    frame.draw_clouds(fake_clouds(sheet));
+    for (int i = 0; i < 3; ++i)
+        frame.prepare(scene, 1.8e-3);
+    const auto offset_m = [&] { return glm::length(frame.clouds().map().parts().front().offset_m); };
+    EXPECT_LT(offset_m(), 0.01F);
+    std::swap(scene.weather.clouds[0], scene.weather.clouds[1]);
+    frame.prepare(scene, 1.8e-3);
+    EXPECT_LT(offset_m(), 0.01F);
+    // The measured one is switched off.
+    scene.weather.clouds[0] = scene.weather.clouds[1];
+    scene.weather.clouds[0].seed = 7;
+    scene.weather.cloud_count = 1;
+    frame.prepare(scene, 1.8e-3);
+    EXPECT_LT(offset_m(), 0.01F);
+    scene.eye.latitude_deg += 0.1;
+    frame.prepare(scene, 1.8e-3);
+    EXPECT_LT(offset_m(), 0.01F);
+    EXPECT_GT(frame.clouds().map().rays_marched(), 30000);
 }
 
 TEST(CloudLightning, LightsTheCloudsNearTheFlashWhileItLasts) {

@@ -78,7 +78,10 @@ class FakeMaker final : public cloud::CloudMaker {
     const cloud::CloudSource& freeze(std::size_t slot, const cloud::CloudMoment& moment) override {
         sources_[slot].sheet = sheet_;
         sources_[slot].eye_m = fake_place_m(moment.eye);
-        if (moment.scene.weather.cloud_count > 0) {
+        if (moment.scene.weather.cloud_count == 0) {
+            sources_[slot].sheet.least_transmittance = sources_[slot].sheet.most_transmittance = 1.0;
+            sources_[slot].sheet.fog_per_m = 0.0;
+        } else {
             const glm::dvec2 drift_m = moment.scene.weather.clouds[0].drift_m;
             sources_[slot].eye_m -= glm::dvec3{drift_m.x, drift_m.y, 0.0};
         }
