@@ -36,6 +36,15 @@ bool steep(const glm::vec3 (&light)[25]) noexcept {
     return false;
 }
 
+// Cloud hardly absorbs: what weakens a flash on its way through is what escapes to all sides, as if some of
+// the depth of a cumulonimbus, 0.03 per metre, were left out.
+glm::vec3 flash_inside_cd_m2(const cloud::Flash& flash, const glm::dvec3& place_m) noexcept {
+    constexpr double kForward = 0.85;
+    constexpr double kEscape_per_m = 1.0 / 1500.0;
+    const double depth = glm::distance(flash.place_m, place_m) * kEscape_per_m / (1.0 - kForward);
+    return cloud::flash_on_cloud_cd_m2(flash, place_m, depth, kForward);
+}
+
 glm::dvec3 body_direction(const SkyLight& light, const glm::dvec3& airless_enu) {
     const Horizontal airless = horizontal_of(airless_enu);
     return direction_of({light.refraction.apparent_from_true(airless.elevation_rad), airless.azimuth_rad});
@@ -111,7 +120,12 @@ glm::dvec3 CloudFrame::composed(const cloud::CloudMap::Sight& sight, const Defer
     glm::dvec3 sum = sight.near_light_cd_m2 + sight.transmittance * behind_cd_m2;
     if (sight.far_opacity > 0.0) {
         const auto between = air.between(direction_enu, sight.distance_m);
-        sum += between.passed_rgb * sight.far_light_cd_m2 + sight.far_opacity * between.added_rgb;
+        glm::dvec3 light_cd_m2 = sight.far_light_cd_m2;
+        for (const cloud::Flash& flash : flashes_.all()) {
+            light_cd_m2 +=
+                sight.far_opacity * glm::dvec3{flash_inside_cd_m2(flash, direction_enu * sight.distance_m)};
+        }
+        sum += between.passed_rgb * light_cd_m2 + sight.far_opacity * between.added_rgb;
     }
     return sum;
 }
@@ -301,6 +315,38 @@ void CloudFrame::gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRo
     }
 }
 
+// What may light the clouds of a tile: it lies near by one of the places where they are.
+void CloudFrame::find_flashes(int tile) noexcept {
+    on_tile_.count = 0;
+    if (flashes_.count == 0) return;
+    const cloud::Cone& cone = map_.cone(tile);
+    for (const cloud::Flash& flash : flashes_.all()) {
+        // As seen from the eye, a tile's clouds lie within its cone.
+        const double away_m = glm::length(flash.place_m);
+        const double along_m = glm::dot(flash.place_m, cone.axis);
+        const double aside_m = std::sqrt(std::max(away_m * away_m - along_m * along_m, 0.0));
+        const double outside_m =
+            along_m > 0.0 ? aside_m * cone.cosine - along_m * cone.sine : away_m - cloud::kFlashReach_m;
+        if (outside_m < cloud::kFlashReach_m) on_tile_.flashes[on_tile_.count++] = flash;
+    }
+}
+
+void CloudFrame::add_flashes(int tile, int row, cloud::ToneRow& out) const noexcept {
+    const MapGeometry& geometry = map_.geometry();
+    const MapGeometry::Texel corner = geometry.corner(tile);
+    for (int i = 0; i < kTile; ++i) {
+        if (!(out.opacity[i] > 1e-3F)) continue;
+        const glm::dvec3 direction =
+            glm::normalize(glm::dvec3{geometry.direction(corner.column + i, corner.row + row, corner.lower)});
+        const glm::dvec3 place_m = direction * static_cast<double>(out.reach_m[i] / out.opacity[i]);
+        for (const cloud::Flash& flash : on_tile_.all()) {
+            const glm::vec3 added = out.opacity[i] * flash_inside_cd_m2(flash, place_m);
+            for (int c = 0; c < 3; ++c)
+                out.light[c][i] += added[c];
+        }
+    }
+}
+
 void CloudFrame::show_behind(const Backdrop& backdrop, Behind& behind) const noexcept {
     const auto show = [&](const glm::vec3(&light)[kNodeCount], float(&codes)[3][Behind::kPadded]) {
         for (std::size_t i = 0; i < Behind::kPadded; ++i) {
@@ -331,6 +377,7 @@ void CloudFrame::tone_tile(int tile, const SkyLight& light, std::size_t first) n
     float codes[3][kTile];
     for (int y = 0; y < kTile; ++y) {
         gather_row(tile, y, nodes, row);
+        if (on_tile_.count > 0) add_flashes(tile, y, row);
         const auto lay = [&](const auto& at, float* out) { spread(fold, y, at, out); };
         for (int c = 0; c < 3; ++c) {
             lay([&](std::size_t i) { return backdrop.sky[i][c]; }, row.smooth[cloud::kBehind + c]);
@@ -377,7 +424,8 @@ bool CloudFrame::serves(int tile, std::uint64_t tone_revision) const noexcept {
 
 void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
                       std::span<const shaders64::ToneParameters> tones, std::uint64_t light_revision,
-                      std::uint64_t tone_revision) {
+                      std::uint64_t tone_revision, const cloud::Flashes& flashes) {
+    flashes_ = flashes;
     toned_.clear();
     clouded_.clear();
     clouded_tiles_.clear();
@@ -404,7 +452,10 @@ void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
     std::size_t first = 0;
     for (const int tile : clouded_tiles_) {
         Made& made = made_[static_cast<std::size_t>(tile)];
-        if (serves(tile, tone_revision)) continue;
+        find_flashes(tile);
+        const bool flashed = on_tile_.count > 0;
+        if (!flashed && !made.flashed && serves(tile, tone_revision)) continue;
+        made.flashed = flashed;
         tone_tile(tile, light, first);
         toned_.push_back({tile, first});
         first += kTileFloats;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/cloud/cloud_map.h"
+#include "render/cloud/lightning.h"
 #include "render/cloud/tile_tone.h"
 #include "render/deferred.h"
 #include "render/eye/adaptation.h"
@@ -41,9 +42,9 @@ class CloudFrame {
     void follow(cloud::CloudMaker& maker, const Scene& scene, const cloud::CloudLight& on_clouds,
                 const SkyLight& light, bool jumped, int size, int tiles_a_frame);
     /// Tones what has changed. \param tones  one for each screen \param light_revision  rises when the light
-    /// has changed by what may show \param tone_revision  likewise
+    /// has changed by what may show \param tone_revision  likewise \param flashes  that light the clouds
     void tone(const SkyLight& light, const DeferredAir& air, std::span<const shaders64::ToneParameters> tones,
-              std::uint64_t light_revision, std::uint64_t tone_revision);
+              std::uint64_t light_revision, std::uint64_t tone_revision, const cloud::Flashes& flashes);
 
     [[nodiscard]] bool shown() const noexcept { return shown_; }
     [[nodiscard]] const cloud::CloudMap& map() const noexcept { return map_; }
@@ -87,6 +88,7 @@ class CloudFrame {
         std::uint64_t map = 0;
         std::uint64_t tone = 0;
         bool clouded = false;
+        bool flashed = false;
         std::array<glm::vec3, 2> offsets_m{};  // of the map's parts
     };
     void resize();
@@ -101,6 +103,8 @@ class CloudFrame {
     void gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRow& out) const noexcept;
     struct Behind;
     void show_behind(const Backdrop& backdrop, Behind& behind) const noexcept;
+    void find_flashes(int tile) noexcept;
+    void add_flashes(int tile, int row, cloud::ToneRow& out) const noexcept;
     [[nodiscard]] bool serves(int tile, std::uint64_t tone_revision) const noexcept;
 
     cloud::CloudMap map_;
@@ -110,6 +114,8 @@ class CloudFrame {
     std::vector<Backdrop> backdrops_;  // of each tile
     std::vector<Made> made_;
     std::vector<cloud::ToneLaw> laws_;
+    cloud::Flashes flashes_;
+    cloud::Flashes on_tile_;  // of those, what lights the tile in hand
     std::vector<TonedTile> toned_;
     std::vector<std::vector<float>> texels_;
     std::vector<cloud::Cone> clouded_;

@@ -9,7 +9,7 @@
 
 namespace skyig::render {
 
-/// Layers of model impostor that are kept at a time, each with some 80 MB of particles and pictures.
+/// Layers of model impostor that are kept at a time, each with some 110 MB of particles and pictures.
 inline constexpr std::size_t kMostImpostorLayers = 2;
 
 /// Never kAuto: that is kVolume, and kLayer for ice clouds, which are thin. Beyond the first

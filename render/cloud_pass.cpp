@@ -10,20 +10,36 @@ constexpr int kUnit = 7;
 constexpr std::array<float, 4> kClear{0.0F, 0.0F, 0.0F, 1.0F};
 }  // namespace
 
-void CloudFetch::set(const gl::Program& program, int map_size) const {
+glm::vec4 CloudFetch::place(int map_size, bool lower) noexcept {
     // Places -1 and 1 are the middles of the outermost texels.
     const float across = static_cast<float>(map_size - 1) / (2.0F * static_cast<float>(map_size));
-    program.set(place_, glm::vec4{across, 0.5F, 0.5F * across, 0.25F});
+    return {across, 0.5F, 0.5F * across, lower ? 0.75F : 0.25F};
+}
+
+void CloudFetch::set(const gl::Program& program, int map_size) const {
+    program.set(place_, place(map_size, false));
+}
+
+Octant octant_of(int index, const glm::dmat4& enu_from_mesh) noexcept {
+    Octant octant;
+    const glm::dmat4 rows = glm::transpose(enu_from_mesh);
+    for (int i = 0; i < 3; ++i) {
+        const double sign = (index >> i & 1) != 0 ? -1.0 : 1.0;
+        octant.signs[i] = static_cast<float>(sign);
+        octant.sides[static_cast<std::size_t>(i)] = sign * rows[i];
+    }
+    return octant;
 }
 
 CloudPass::CloudPass(std::size_t screens)
-    : program_("sky/dome.vert", "cloud/dome.frag"),
-      fetch_(program_),
+    : program_("cloud/dome.vert", "cloud/dome.frag"),
       clip_(program_.uniform("u_clip_from_mesh")),
       enu_(program_.uniform("u_enu_from_mesh")),
       share_(program_.uniform("u_share")),
       half_size_(program_.uniform("u_half_size_px")),
       dither_(program_.uniform("u_dither_codes")),
+      place_(program_.uniform("u_cloud_place")),
+      octant_(program_.uniform("u_octant")),
       over_("sky/dome.vert", "cloud/over.frag"),
       over_fetch_(over_),
       over_clip_(over_.uniform("u_clip_from_mesh")),
@@ -42,7 +58,6 @@ void CloudPass::prepare(const CloudFrame& clouds, bool dither) {
             maps_.back().fill(kClear);
         }
         size_revision_ = clouds.size_revision();
-        fetch_.set(program_, size_);
         over_fetch_.set(over_, size_);
     }
     program_.set(dither_, dither ? 1.0F : 0.0F);
@@ -71,6 +86,11 @@ void CloudPass::use_dome(const Channel& channel, const glm::dmat4& clip_from_mes
     program_.set(enu_, glm::mat4{enu_from_mesh});
     program_.set(share_, static_cast<float>(share));
     program_.set(half_size_, 0.5F * glm::vec2{channel.width_px, channel.height_px});
+}
+
+void CloudPass::take(const Octant& octant) const {
+    program_.set(place_, CloudFetch::place(size_, octant.signs.z < 0.0F));
+    program_.set(octant_, octant.signs);
 }
 
 void CloudPass::use_over(const glm::dmat4& clip_from_mesh, const glm::dmat4& enu_from_mesh) const {

@@ -1,6 +1,7 @@
 // The toned cloud map as textures, one for each screen, and the dome drawn with it where clouds stand.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -17,10 +18,21 @@ class CloudFetch {
   public:
     explicit CloudFetch(const gl::Program& program) : place_(program.uniform("u_cloud_place")) {}
     void set(const gl::Program& program, int map_size) const;
+    /// \param lower  whether the second component's shift is that of the lower square
+    [[nodiscard]] static glm::vec4 place(int map_size, bool lower) noexcept;
 
   private:
     int place_;
 };
+
+/// One of the eight parts of all directions in each of which none of their components changes its sign.
+struct Octant {
+    glm::vec3 signs{1.0F};
+    /// Half spaces of the dome's mesh that it consists of. \see DomePatches::visible()
+    std::array<glm::dvec4, 3> sides{};
+};
+inline constexpr int kOctants = 8;
+[[nodiscard]] Octant octant_of(int index, const glm::dmat4& enu_from_mesh) noexcept;
 
 class CloudPass {
   public:
@@ -31,9 +43,11 @@ class CloudPass {
     void prepare(const CloudFrame& clouds, bool dither);
     /// Binds the screen's map for all programs that fetch it.
     void bind(std::size_t screen) const;
-    /// Makes the dome's program current. \param share  Dome::share()
+    /// Makes the dome's program current, for one octant after the other; it needs three clip distances.
+    /// \param share  Dome::share()
     void use_dome(const Channel& channel, const glm::dmat4& clip_from_mesh, const glm::dmat4& enu_from_mesh,
                   double share) const;
+    void take(const Octant& octant) const;
     /// The program for clouds over what is drawn already, to be blended with gl::Blend::kOver.
     void use_over(const glm::dmat4& clip_from_mesh, const glm::dmat4& enu_from_mesh) const;
 
@@ -41,8 +55,7 @@ class CloudPass {
 
   private:
     gl::Program program_;
-    CloudFetch fetch_;
-    int clip_, enu_, share_, half_size_, dither_;
+    int clip_, enu_, share_, half_size_, dither_, place_, octant_;
     gl::Program over_;
     CloudFetch over_fetch_;
     int over_clip_, over_enu_;

@@ -21,8 +21,8 @@ struct Clouds {
                   cloud::CloudLight& on_clouds) = nullptr;
 };
 
-/// Clouds by the model of each layer, lit by the frame's Sun, Moon and dark sky. Makes their noise: a quarter of a second of
-/// one core. May throw std::bad_alloc.
+/// Clouds by the model of each layer, lit by the frame's Sun, Moon and dark sky. Makes their noise: a quarter
+/// of a second of one core. May throw std::bad_alloc.
 [[nodiscard]] Clouds scene_clouds();
 
 }  // namespace skyig::render

@@ -113,6 +113,12 @@ class Dome {
                                                       Marked which = Marked::kAll) noexcept {
         return patches_.visible(clip_from_mesh, rows, which);
     }
+    /// The same within more half spaces. \see DomePatches::visible()
+    [[nodiscard]] std::span<const IndexRange> visible(const glm::dmat4& clip_from_mesh,
+                                                      std::span<const glm::dvec4> inside,
+                                                      const QuadRows& rows, Marked which) noexcept {
+        return patches_.visible(clip_from_mesh, inside, rows, which);
+    }
     /// Marks patches for visible(). \see DomePatches::mark()
     template <class Meets>
     void mark(Meets meets) noexcept {

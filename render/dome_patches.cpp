@@ -85,7 +85,8 @@ void DomePatches::bound(std::span<const glm::vec3> directions) noexcept {
     }
 }
 
-std::span<const IndexRange> DomePatches::visible(const glm::dmat4& clip_from_dome, const QuadRows& rows,
+std::span<const IndexRange> DomePatches::visible(const glm::dmat4& clip_from_dome,
+                                                 std::span<const glm::dvec4> inside, const QuadRows& rows,
                                                  Marked which) noexcept {
     const auto row = [&](int i) {
         return glm::dvec4{clip_from_dome[0][i], clip_from_dome[1][i], clip_from_dome[2][i],
@@ -102,10 +103,11 @@ std::span<const IndexRange> DomePatches::visible(const glm::dmat4& clip_from_dom
     for (const Patch& patch : patches_) {
         if (patch.row < rows.first || patch.row >= rows.end) continue;
         if (which != Marked::kAll && patch.marked != (which == Marked::kYes)) continue;
-        const bool outside = std::any_of(sides.begin(), sides.end(), [&](const glm::dvec4& side) {
+        const auto misses = [&](const glm::dvec4& side) {
             return glm::dot(glm::dvec3{side}, patch.axis) + std::max(side.w, 0.0) < -patch.sine;
-        });
-        if (outside) continue;
+        };
+        if (std::any_of(sides.begin(), sides.end(), misses)) continue;
+        if (std::any_of(inside.begin(), inside.end(), misses)) continue;
         if (!visible_.empty() && visible_.back().first + visible_.back().count == patch.range.first)
             visible_.back().count += patch.range.count;
         else

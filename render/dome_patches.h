@@ -78,7 +78,14 @@ class DomePatches {
     /// little. \param rows  no others. Valid until the next call; allocates nothing.
     [[nodiscard]] std::span<const IndexRange> visible(const glm::dmat4& clip_from_dome,
                                                       const QuadRows& rows = {},
-                                                      Marked which = Marked::kAll) noexcept;
+                                                      Marked which = Marked::kAll) noexcept {
+        return visible(clip_from_dome, {}, rows, which);
+    }
+    /// Of those, what may show within more half spaces. \param inside  each: (normal, what the shift adds),
+    /// positive inside
+    [[nodiscard]] std::span<const IndexRange> visible(const glm::dmat4& clip_from_dome,
+                                                      std::span<const glm::dvec4> inside,
+                                                      const QuadRows& rows, Marked which) noexcept;
 
     /// Marks patches anew. \param meets  (axis of the cone that holds a patch, sine of its half angle) ->
     /// bool

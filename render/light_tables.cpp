@@ -207,8 +207,8 @@ bool LightTables::has_jumped(const Scene& scene) const noexcept {
 }
 
 // Of one source: what is left of it below clouds, weighed by what a clear sky would bring.
-void LightTables::shade(const Scene& scene, const CloudShade& clouds, double ground_albedo,
-                        LitAir& lit) const noexcept {
+void LightTables::shade(const Scene& scene, const CloudShade& clouds, double ground_albedo, LitAir& lit,
+                        Overhead& overhead) const noexcept {
     const double sine = std::sin(lit.source.elevation_rad);
     const double beam_lux = std::max(sine, 0.0) * air_->direct_sun_xyz(0.0, lit.source.elevation_rad).y;
     const double sky_lux = air_->ground_diffuse_xyz(lit.source.elevation_rad).y;
@@ -228,6 +228,10 @@ void LightTables::shade(const Scene& scene, const CloudShade& clouds, double gro
     lit.clouded = {static_cast<float>(mean(eye) * (1.0 + covered * (gain - 1.0))),
                    static_cast<float>(mean(ground))};
     lit.beam_share = ground.direct;
+    const double weight = static_cast<double>(lit.scale_xyz.y);
+    const double scattered = static_cast<double>(eye.beam - eye.direct);
+    overhead.clear_lux += weight * sky_lux;
+    overhead.covered_lux += weight * (sky_lux * static_cast<double>(eye.sky) + beam_lux * scattered);
 }
 
 void LightTables::update(const Scene& scene, const Plan& plan) {
@@ -286,9 +290,17 @@ SkyLight LightTables::light(const Scene& scene, const Plan& plan,
                       1.0F};
     }
     if (const CloudShade clouds(scene.weather, light.ground_albedo); clouds.any()) {
-        shade(scene, clouds, light.ground_albedo, light.sun);
-        shade(scene, clouds, light.ground_albedo, light.moon);
-        light.night_clouded = {clouds.at(scene.eye.height_m, 0.0).sky, clouds.at(0.0, 0.0).sky};
+        const float dark = clouds.at(scene.eye.height_m, 0.0).sky;
+        light.night_clouded = {dark, clouds.at(0.0, 0.0).sky};
+        Overhead overhead;
+        if (light.night != nullptr) {
+            overhead.clear_lux = static_cast<double>(light.night_share * light.night->ground_rgb_lux().y);
+            overhead.covered_lux = overhead.clear_lux * static_cast<double>(dark);
+        }
+        shade(scene, clouds, light.ground_albedo, light.sun, overhead);
+        shade(scene, clouds, light.ground_albedo, light.moon, overhead);
+        light.overhead =
+            overhead.clear_lux > 0.0 ? static_cast<float>(overhead.covered_lux / overhead.clear_lux) : dark;
     }
     return light;
 }

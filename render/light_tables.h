@@ -120,8 +120,13 @@ class LightTables {
     void update_sea(const Scene& scene) noexcept;
     [[nodiscard]] bool same_sea(const Made& made, const Scene& scene) const noexcept;
     void update_view(View& view, const Wanted& wanted);
-    void shade(const Scene& scene, const CloudShade& clouds, double ground_albedo,
-               LitAir& lit) const noexcept;
+    /// Light of the sky on level ground at the eye, without clouds and with.
+    struct Overhead {
+        double clear_lux = 0.0;
+        double covered_lux = 0.0;
+    };
+    void shade(const Scene& scene, const CloudShade& clouds, double ground_albedo, LitAir& lit,
+               Overhead& overhead) const noexcept;
     [[nodiscard]] SkySettings fitting(const SkySettings& asked) const noexcept;
 
     sky::Refraction refraction_;

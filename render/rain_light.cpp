@@ -39,7 +39,7 @@ Surroundings surroundings(const SkyLight& light) noexcept {
             std::remainder(i * std::numbers::pi * (3.0 - std::sqrt(5.0)), 2.0 * std::numbers::pi);
         const Horizontal at{std::asin(height), azimuth_rad};
         const glm::vec3 rgb =
-            glm::max(light.smooth_rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation), 0.0F);
+            glm::max(light.covered_rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kByElevation), 0.0F);
         sum.mean_cd_m2 += rgb / static_cast<float>(kDirections);
         sum.gradient_cd_m2 +=
             glm::outerProduct(rgb, glm::vec3{direction_of(at)}) * (3.0F / static_cast<float>(kDirections));

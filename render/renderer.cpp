@@ -177,7 +177,16 @@ void Renderer::Impl::draw_clouded_dome(std::size_t index, const glm::dmat4& clip
     };
     clouds->bind(screen);
     clouds->use_dome(channels[index], clip_from_mesh, frame.enu_from_mesh(), frame.dome().share());
-    draw_ranges(frame.dome().visible(clip_from_mesh, {.first = sea_rows}, Marked::kYes));
+    gl::set_clip_distances(3);
+    for (int i = 0; i < kOctants; ++i) {
+        const Octant octant = octant_of(i, frame.enu_from_mesh());
+        const auto ranges =
+            frame.dome().visible(clip_from_mesh, octant.sides, {.first = sea_rows}, Marked::kYes);
+        if (ranges.empty()) continue;
+        clouds->take(octant);
+        draw_ranges(ranges);
+    }
+    gl::set_clip_distances(0);
     if (sea_rows == 0) return;
     // Waves are drawn already.
     clouds->use_over(clip_from_mesh, frame.enu_from_mesh());

@@ -128,7 +128,7 @@ void SkyFrame::refresh_clouds(const Scene& scene, double pixel_rad) {
 
 void SkyFrame::tone_clouds() noexcept {
     if (!clouds_.shown()) return;
-    clouds_.tone(light_, *air_between_, tones_, light_revision_, vertices_revision_);
+    clouds_.tone(light_, *air_between_, tones_, light_revision_, vertices_revision_, flashes_);
     const glm::dmat3 mesh_from_enu = glm::transpose(glm::dmat3{enu_from_mesh()});
     dome_.mark([&](const glm::dvec3& axis_mesh, double sine) {
         const glm::dvec3 axis = glm::transpose(mesh_from_enu) * axis_mesh;

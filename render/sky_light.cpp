@@ -80,7 +80,7 @@ glm::vec3 film_cd_m2(const SkyLight& light, double elevation_rad, double azimuth
     // Fresnel's for water (Schlick 1994).
     const double reflectance = 0.02 + 0.98 * std::pow(1.0 - std::sin(mirrored_rad), 5.0);
     return static_cast<float>(light.film * reflectance) * passed_from_ground(light, elevation_rad) *
-           light.smooth_rgb_cd_m2(mirrored_rad, azimuth_rad, Side::kSky);
+           light.covered_rgb_cd_m2(mirrored_rad, azimuth_rad, Side::kSky);
 }
 
 }  // namespace
@@ -108,6 +108,15 @@ glm::vec3 SkyLight::smooth_rgb_cd_m2(double elevation_rad, double azimuth_rad, S
         side == Side::kGround || (side == Side::kByElevation && elevation_rad < horizon_elevation_rad);
     const glm::vec3 clear = clear_rgb_cd_m2(straight_rad, elevation_rad, azimuth_rad, ground);
     return veil != nullptr ? veiled(clear, straight_rad, azimuth_rad, ground) : clear;
+}
+
+glm::vec3 SkyLight::covered_rgb_cd_m2(double elevation_rad, double azimuth_rad, Side side) const noexcept {
+    const double straight_rad = straight_elevation_rad(elevation_rad);
+    const bool ground =
+        side == Side::kGround || (side == Side::kByElevation && elevation_rad < horizon_elevation_rad);
+    const glm::vec3 clear = clear_rgb_cd_m2(straight_rad, elevation_rad, azimuth_rad, ground);
+    const glm::vec3 behind = ground ? clear : overhead * clear;
+    return veil != nullptr ? veiled(behind, straight_rad, azimuth_rad, ground) : behind;
 }
 
 glm::vec3 SkyLight::clear_rgb_cd_m2(double straight_rad, double elevation_rad, double azimuth_rad,

@@ -89,6 +89,9 @@ struct SkyLight {
     const night::NightSky* night = nullptr;
     float night_share = 1.0F;
     CloudedAir night_clouded;
+    /// Mean light of the sky and the clouds that cover it over that of the clear sky; exactly 1 without
+    /// clouds.
+    float overhead = 1.0F;
     LitBelt milky_way;
     /// What fog and its like lay before all of this; null where there is none.
     const fog::Veil* veil = nullptr;
@@ -116,6 +119,9 @@ struct SkyLight {
     [[nodiscard]] SlopeLight of_slopes(double elevation_rad, double azimuth_rad) const noexcept;
     /// The one source whose glitter waves break up: the Sun while its light counts, else the Moon.
     [[nodiscard]] const LitAir& glittering() const noexcept;
+    /// smooth_rgb_cd_m2() of the sky that clouds cover, area mean: what drops and puddles show of it.
+    [[nodiscard]] glm::vec3 covered_rgb_cd_m2(double elevation_rad, double azimuth_rad,
+                                              Side side) const noexcept;
     /// The same without the Milky Way's belt: what the dome carries.
     [[nodiscard]] glm::vec3 smooth_rgb_cd_m2(double elevation_rad, double azimuth_rad,
                                              Side side) const noexcept;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/cloud_shade.h"
 #include "render/colour.h"
 
 namespace skyig::render {
@@ -32,17 +33,24 @@ glm::dvec3 mean_sky_cd_m2(const LitAir& lit) {
 }
 
 void shine(const LitAir& lit, const glm::dvec3& direction_enu, const sky::AirTables& air,
-           const SkyLight& light, double top_m, fog::VeilSources& sources,
+           const SkyLight& light, const CloudShade& clouds, double top_m, fog::VeilSources& sources,
            fog::VeilSources::Beam& beam) noexcept {
     beam.direction_enu = direction_enu;
     if (lit.view == nullptr) return;
     const glm::dvec3 scale{lit.scale_xyz};
     const double elevation_rad = horizontal_of(direction_enu).elevation_rad;
     const double seen_rad = light.straight_elevation_rad(light.refraction.apparent_from_true(elevation_rad));
-    beam.lux = kRec709FromXyz * (scale * air.direct_sun_xyz(std::max(top_m, 0.0), seen_rad));
+    const glm::dvec3 beam_lux = kRec709FromXyz * (scale * air.direct_sun_xyz(std::max(top_m, 0.0), seen_rad));
     const glm::dvec3 sky_xyz_lux = air.ground_diffuse_xyz(elevation_rad);
-    sources.above_cd_m2 +=
+    const glm::dvec3 sky_cd_m2 =
         sky_xyz_lux.y > 0.0 ? kRec709FromXyz * (scale * sky_xyz_lux) / std::numbers::pi : mean_sky_cd_m2(lit);
+    // Clouds above the veil let a part of the beam through and make even light of another.
+    const double mu0 = std::sin(elevation_rad);
+    const CloudShare share = clouds.at(top_m, mu0);
+    beam.lux = static_cast<double>(share.direct) * beam_lux;
+    const double scattered = std::max(mu0, 0.0) * static_cast<double>(share.beam - share.direct);
+    sources.above_cd_m2 +=
+        static_cast<double>(share.sky) * sky_cd_m2 + scattered * beam_lux / std::numbers::pi;
 }
 
 }  // namespace
@@ -51,10 +59,12 @@ fog::VeilSources veil_sources(const Scene& scene, const sky::AirTables& air, con
                               double top_m) noexcept {
     fog::VeilSources sources;
     sources.ground_albedo = light.ground_albedo;
-    shine(light.sun, scene.sun.direction_enu, air, light, top_m, sources, sources.beams[0]);
-    shine(light.moon, scene.moon.direction_enu, air, light, top_m, sources, sources.beams[1]);
+    const CloudShade clouds(scene.weather, light.ground_albedo);
+    shine(light.sun, scene.sun.direction_enu, air, light, clouds, top_m, sources, sources.beams[0]);
+    shine(light.moon, scene.moon.direction_enu, air, light, clouds, top_m, sources, sources.beams[1]);
     if (light.night != nullptr) {
-        const double share = static_cast<double>(light.night_share) / std::numbers::pi;
+        const double share =
+            static_cast<double>(light.night_share * clouds.at(top_m, 0.0).sky) / std::numbers::pi;
         sources.above_cd_m2 += share * glm::dvec3{light.night->ground_rgb_lux()};
     }
     return sources;

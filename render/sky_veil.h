@@ -9,8 +9,8 @@
 
 namespace skyig::render {
 
-/// Sun and Moon through the air above the veil's top, and the even light of their skies and of the dark one
-/// on the ground. Where the air's model follows one order of scattering alone, the sky is what `light` has
+/// Sun and Moon through air and clouds above the veil's top, and the even light of their skies and of the
+/// dark one there. Where the air's model follows one order of scattering alone, the sky is what `light` has
 /// round the eye.
 [[nodiscard]] fog::VeilSources veil_sources(const Scene& scene, const sky::AirTables& air,
                                             const SkyLight& light, double top_m) noexcept;

@@ -57,7 +57,7 @@ void WetPass::prepare(const Scene& scene, const SkyLight& light) {
         const double elevation_rad = std::asin(static_cast<double>(row) / (kRows - 1));
         for (int column = 0; column <= kColumns; ++column, out += 4) {
             const double azimuth_rad = 2.0 * std::numbers::pi * (column % kColumns) / kColumns;
-            const glm::vec3 rgb = light.smooth_rgb_cd_m2(elevation_rad, azimuth_rad, Side::kSky);
+            const glm::vec3 rgb = light.covered_rgb_cd_m2(elevation_rad, azimuth_rad, Side::kSky);
             std::copy_n(&rgb.x, 3, texels_.begin() + static_cast<std::ptrdiff_t>(out));
         }
     }

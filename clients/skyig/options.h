@@ -48,6 +48,8 @@ struct StillOptions {
     std::optional<double> heading_deg;
     std::optional<double> pitch_deg;
     std::optional<double> roll_deg;
+    /// Along the heading, for what falls.
+    double speed_m_s = 0.0;
     std::optional<double> visibility_m;
     /// Name or path of a preset, or the text of a report, in place of the settings' weather; empty: that.
     std::string weather_preset;

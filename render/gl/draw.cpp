@@ -28,6 +28,16 @@ void set_blend(Blend blend) {
     }
 }
 
+void set_clip_distances(int count) {
+    for (int i = 0; i < 3; ++i) {
+        const auto distance = static_cast<GLenum>(GL_CLIP_DISTANCE0 + i);
+        if (i < count)
+            glEnable(distance);
+        else
+            glDisable(distance);
+    }
+}
+
 void finish() {
     glFinish();
 }

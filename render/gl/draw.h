@@ -13,6 +13,8 @@ enum class Blend {
 /// State that all passes share: no depth, no culling, points sized by the shader.
 void set_common_state();
 void set_blend(Blend blend);
+/// How many of gl_ClipDistance clip, at most 3; none in the common state.
+void set_clip_distances(int count);
 
 /// Blocks until all commands so far are executed.
 void finish();

@@ -138,6 +138,54 @@ TEST(CloudMapSchedule, FollowsAFixedNumberOfRaysAFrameAndNoneWhereAllStandsStill
     EXPECT_FALSE(frame.clouds().shown());
 }
 
+TEST(CloudLightning, LightsTheCloudsNearTheFlashWhileItLasts) {
+    const FakeSheet sheet{.height_m = 3000.0,
+                          .wavelength_m = 0.0,
+                          .least_transmittance = 0.0,
+                          .most_transmittance = 0.0,
+                          .light_cd_m2 = glm::vec3{0.0F}};
+    Scene scene = make_scene(-40.0, 0.0, -40.0, 90.0, 500.0);
+    add_view(scene, symmetric_frustum(60.0, 640, 512), view_from_enu(0.0, 60.0, 0.0));
+    add_layer(scene, sheet);
+    scene.weather.lightnings[scene.weather.lightning_count++] = {0, 400.0, 7};
+    // The first flash over the eye.
+    const auto overhead = [](const cloud::Flashes& flashes) {
+        return std::any_of(flashes.all().begin(), flashes.all().end(), [](const cloud::Flash& flash) {
+            return flash.intensity_cd > 1e6 && glm::length(glm::dvec2{flash.place_m}) < 2000.0;
+        });
+    };
+    for (int i = 0; i < 20000 && !overhead(cloud::flashes_at(scene)); ++i)
+        scene.time_s = i / 30.0;
+    ASSERT_TRUE(overhead(cloud::flashes_at(scene)));
+    Scene calm = scene;
+    calm.weather.lightning_count = 0;
+    SkyFrame frame({}, coarse());
+    frame.draw_clouds(fake_clouds(sheet));
+    const auto shown = [&](const Scene& now) {
+        frame.prepare(now, 1.8e-3);
+        return frame.through_clouds(glm::dvec3{0.0}, at(85.0, 0.0)).y;
+    };
+    const auto brightest = [&] {
+        float most = 0.0F;
+        const auto texels = frame.clouds().texels(0);
+        for (const TonedTile& toned : frame.clouds().toned()) {
+            for (std::size_t i = 0; toned.first != TonedTile::kClear && i < CloudFrame::kTileFloats; i += 4)
+                most = std::max(most, texels[toned.first + i + 1]);
+        }
+        return most;
+    };
+    const double dark = shown(calm);
+    const float dark_code = brightest();
+    const double lit = shown(scene);
+    const float lit_code = brightest();
+    EXPECT_NEAR(shown(calm), dark, 0.01 * dark + 1e-9);
+    EXPECT_FALSE(frame.clouds().toned().empty()) << "what was lit is toned once more";
+    std::printf("clouds of %.3g cd/m2 by a flash, %.2g without; codes %.3f and %.3f\n", lit, dark,
+                static_cast<double>(lit_code), static_cast<double>(dark_code));
+    EXPECT_GT(lit, 10.0 * dark);
+    EXPECT_GT(lit_code, dark_code + 0.2F);
+}
+
 TEST(CloudAdaptation, IsToWhatIsSeenOfCloudsToo) {
     for (const AdaptationSource source : {AdaptationSource::kSky, AdaptationSource::kViewMean}) {
         DisplaySettings display;

@@ -104,6 +104,9 @@ Still make_still(const StillOptions& options, const server::Clock& clock) {
     server::SceneBuilder scenes = scene_builder(options, still.config);
     const server::world::World world(still.config, still.utc, log);
     still.scene = scenes.build(world, 1);
+    const double heading_rad = glm::radians(still.config.start.yaw_deg);
+    still.scene.weather.eye_velocity_m_s =
+        options.speed_m_s * glm::dvec3{std::sin(heading_rad), std::cos(heading_rad), 0.0};
     still.leap_seconds_assumed = scenes.leap_seconds_assumed();
     if (scenes.date_clamped()) {
         log.warning("{} is beyond the ephemeris: the nearest year it knows is drawn",

@@ -24,6 +24,9 @@ void add_still(CLI::App& verb, StillOptions& options) {
         ->check(finite_in(-360.0, 360.0));
     verb.add_option("--pitch", options.pitch_deg, "degrees nose up")->check(finite_in(-90.0, 90.0));
     verb.add_option("--roll", options.roll_deg, "degrees right wing down")->check(finite_in(-180.0, 180.0));
+    verb.add_option("--speed", options.speed_m_s,
+                    "along the heading, metres a second: rain streaks by it (0)")
+        ->check(finite_in(0.0, 1000.0));
     verb.add_option("--visibility-m", options.visibility_m, "visibility at the ground, metres")
         ->check(finite_in(10.0, 400'000.0));
     CLI::Option* preset = verb.add_option("--weather", options.weather_preset,

@@ -67,6 +67,14 @@ void tell(const CloudLayer& cloud, Layer& layer) {
     layer.self_shadow = f32(std::max(cloud.look->self_shadow, 0.0));
 }
 
+// The most that a shape's lift changes by, per height from base to top.
+float steepest(const Shape& shape) {
+    const auto& lift = shape.lift;
+    const auto at = [&](float q) { return std::abs(lift[0] + q * (2.0F * lift[1] + 3.0F * q * lift[2])); };
+    const float bend = lift[2] != 0.0F ? std::clamp(-lift[1] / (3.0F * lift[2]), 0.0F, 1.0F) : 0.0F;
+    return std::max({at(0.0F), at(bend), at(1.0F)});
+}
+
 // Taller clouds are lit as finely as those of this height.
 constexpr float kTallest_m = 1000.0F;
 
@@ -97,6 +105,7 @@ Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnch
     layer.bottom_scud = f32(std::clamp(cloud.bottom_scud, 0.0, 1.0));
     layer.top_scud = f32(std::clamp(cloud.top_scud, 0.0, 1.0));
     layer.extinction_per_m = f32(extinction);
+    layer.lift_per_m = steepest(layer.shape) / layer.thickness_m;
     layer.look_m = 0.05F * std::min(layer.thickness_m, kTallest_m);
     layer.area = area_of(cloud, anchor.closing);
     layer.g = genus.ice ? kIceG : kWaterG;
@@ -250,7 +259,7 @@ float high_of(const Layer& layer) {
 }
 
 // A step is this part of the way to it where it is neither shortest nor longest.
-constexpr float kRate = 0.005F;
+constexpr float kRate = 0.008F;
 
 Cells cells_of(float least_m, float most_m) {
     Cells cells{};

@@ -85,7 +85,8 @@ struct Layer {
     float bottom_scud;
     float top_scud;
     float extinction_per_m;
-    float look_m;  // first and shortest part of the way that is looked along towards a source
+    float lift_per_m;  // at most
+    float look_m;      // first and shortest part of the way that is looked along towards a source
     Area area;
     float g;
     SlabNodes inside;

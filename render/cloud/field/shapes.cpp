@@ -25,11 +25,11 @@ constexpr Genus cumulus() {
                 {Sheet::kPuffs, turned(6, 2), 1.0F},
                 {Sheet::kPuffs, turned(19, -5), 0.22F}}};
     g.push = {0.05F, 0.03F};
-    g.fines = {{{turned(131, 62), 800.0F, 0.26F}, {turned(523, 286), 200.0F, 0.10F}}};
-    g.lift = {0.10F, 0.40F, 0.0F};
+    g.fines = {{{turned(131, 62), 800.0F, 0.31F}, {turned(523, 286), 200.0F, 0.11F}}};
+    g.lift = {0.05F, 0.75F, 0.0F};
     g.edge = 0.34F;
-    g.reach_m = 310.0F;
-    g.step_m = 12.0F;
+    g.reach_m = 300.0F;
+    g.step_m = 16.0F;
     g.stride_m = 150.0F;
     g.extinction_per_m = 0.05F;
     g.usual_thickness_m = 2000.0F;
@@ -42,11 +42,11 @@ constexpr Genus cumulonimbus() {
                 {Sheet::kPuffs, turned(2, 1), 1.0F},
                 {Sheet::kPuffs, turned(9, -4), 0.16F}}};
     g.push = {0.05F, 0.03F};
-    g.fines = {{{turned(23, 9), 5000.0F, 0.26F}, {turned(97, 40), 1300.0F, 0.12F}}};
+    g.fines = {{{turned(27, 11), 4200.0F, 0.25F}, {turned(107, 44), 1200.0F, 0.12F}}};
     // Full grown: a trunk, and the anvil over it.
-    g.lift = {2.2F, -5.2F, 3.3F};
+    g.lift = {1.5F, -4.9F, 3.3F};
     g.edge = 0.30F;
-    g.reach_m = 750.0F;
+    g.reach_m = 660.0F;
     g.step_m = 20.0F;
     g.stride_m = 300.0F;
     g.extinction_per_m = 0.06F;
@@ -63,8 +63,8 @@ constexpr Genus stratocumulus() {
     g.fines = {{{turned(163, 71), 400.0F, 0.34F}, {turned(547, 230), 160.0F, 0.12F}}};
     g.lift = {0.0F, 0.30F, 0.0F};
     g.edge = 0.45F;
-    g.reach_m = 190.0F;
-    g.step_m = 12.0F;
+    g.reach_m = 135.0F;
+    g.step_m = 16.0F;
     g.stride_m = 150.0F;
     g.extinction_per_m = 0.045F;
     g.usual_thickness_m = 400.0F;
@@ -80,7 +80,7 @@ constexpr Genus smooth_sheet(int main, float extinction_per_m, float thickness_m
     g.fines = {{{turned(89, 37), 700.0F, 0.12F}, {}}};
     g.lift = {0.0F, 0.0F, 0.0F};
     g.edge = 0.7F;
-    g.reach_m = 700.0F;
+    g.reach_m = 2000.0F / static_cast<float>(main);
     g.step_m = 16.0F;
     g.stride_m = 250.0F;
     g.extinction_per_m = extinction_per_m;
@@ -97,7 +97,7 @@ constexpr Genus altocumulus() {
     g.fines = {{{turned(353, 131), 250.0F, 0.20F}, {}}};
     g.lift = {0.0F, 0.30F, 0.0F};
     g.edge = 0.6F;
-    g.reach_m = 80.0F;
+    g.reach_m = 44.0F;
     g.step_m = 14.0F;
     g.stride_m = 60.0F;
     g.extinction_per_m = 0.015F;
@@ -114,7 +114,7 @@ constexpr Genus cirrus() {
     g.fines = {{{drawn(23, 7, 3), 1500.0F, 0.08F}, {}}};
     g.lift = {0.0F, 0.20F, 0.0F};
     g.edge = 1.0F;
-    g.reach_m = 150.0F;
+    g.reach_m = 65.0F;
     g.step_m = 50.0F;
     g.stride_m = 250.0F;
     g.extinction_per_m = 0.0010F;
@@ -135,7 +135,7 @@ constexpr Genus cirrostratus() {
 constexpr Genus cirrocumulus() {
     Genus g = altocumulus();
     g.flats[1] = {Sheet::kCells, {29, 11, -17, 45}, 1.0F};
-    g.reach_m = 50.0F;
+    g.reach_m = 28.0F;
     g.stride_m = 40.0F;
     g.extinction_per_m = 0.003F;
     g.usual_thickness_m = 250.0F;

@@ -11,6 +11,7 @@ namespace skyig::render::cloud::impostor {
 namespace {
 
 constexpr double kEarthRadius_m = 6371000.0;
+constexpr float kFadeFrom = 0.85F;  // of a layer's range
 // A cloud is lit anew when the light comes from this far beside where it came from, made anew when its shape
 // is older or its growth, height or density is other by more than these.
 constexpr float kLightTurn_rad = 0.02F;
@@ -37,6 +38,11 @@ float relative(float now, float before) {
 }
 
 }  // namespace
+
+float shown_part(float distance_m, float range_m) noexcept {
+    const float s = std::clamp((distance_m / range_m - kFadeFrom) / (1.0F - kFadeFrom), 0.0F, 1.0F);
+    return 1.0F - s * s * (3.0F - 2.0F * s);
+}
 
 ImpostorClouds::ImpostorClouds(const ImpostorSettings& settings)
     : settings_(settings), atlas_(Atlas::make(settings.atlas)), shading_(settings.light, {}) {

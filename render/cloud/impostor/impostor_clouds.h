@@ -86,6 +86,9 @@ struct Cloud {
 inline constexpr float kDirect = 2.6F;
 inline constexpr float kPictures = 2.0F;
 
+/// Of a cloud, 0..1: they fade over the last part of their layer's range. \param range_m  range_m()
+[[nodiscard]] float shown_part(float distance_m, float range_m) noexcept;
+
 /// Allocates at construction alone. A CloudSource that was frozen from it reads the atlas in place:
 /// update() only when no march is under way, and hold() for what is to be marched after another update().
 class ImpostorClouds {

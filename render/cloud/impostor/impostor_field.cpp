@@ -14,7 +14,6 @@ constexpr int kElevations = 48;
 constexpr std::size_t kBins = static_cast<std::size_t>(kAzimuths) * kElevations;
 constexpr std::size_t kEntries = 1U << 18U;
 constexpr float kOpaque = 0.998F;
-constexpr float kFadeFrom = 0.85F;  // of a layer's range
 constexpr float kBeside = 1.05F;
 constexpr int kMostTaps = 4;
 // Of relief: opacity from which a depth is taken for what it says, and the farthest that it moves a look,
@@ -166,7 +165,7 @@ void ImpostorField::place(const ImpostorClouds& clouds, const Cloud& cloud, cons
     placed.bound_m =
         kBeside * std::max({cloud.bound_m, cloud.pictures[0].bound_m, cloud.pictures[1].bound_m});
     const auto range = static_cast<float>(clouds.range_m());
-    placed.part = 1.0F - smooth_step(kFadeFrom * range, range, placed.distance_m);
+    placed.part = shown_part(placed.distance_m, range);
     const float newest = clouds.newest_part(cloud);
     placed.boards[0] = board_of(clouds, cloud.pictures[0], newest, placed.middle_m);
     placed.boards[1] = board_of(clouds, cloud.pictures[1], 1.0F - newest, placed.middle_m);

@@ -9,7 +9,7 @@ layout(location = 1) in vec3 a_from;
 layout(location = 2) in vec3 a_to;
 
 uniform mat4 u_clip_from_mesh;
-uniform mat4 u_enu_from_mesh;    // this one and what follows from it where clouds are drawn alone
+uniform mat4 u_enu_from_mesh;    // this one and what follows from it where clouds are laid over waves alone
 uniform float u_share;
 uniform vec2 u_half_size_px;
 

@@ -22,15 +22,23 @@ TEST(Families, HaveNamesOfTheirOwnAndAreFoundByThem) {
     EXPECT_EQ(find_family("nonsense"), nullptr);
 }
 
-/// What the pages need: every model has the headline's error and cost, every plot something to draw.
+/// What the pages need: models have the headline's error and cost, every plot has something to draw. Beside
+/// light in slabs the clouds have ways to draw them, beside depths the fog has ranges: not all are headed.
 void expect_complete(const Report& report) {
-    ASSERT_FALSE(report.models.empty());
+    bool any = false;
     for (const ModelEntry& model : report.models) {
         EXPECT_FALSE(model.what.empty()) << model.name;
         const ErrorEntry* error = find_error(model, report.headline.quantity, report.headline.cases);
-        ASSERT_NE(error, nullptr) << model.name;
-        EXPECT_GT(error->figures.count, 0U);
-        EXPECT_NE(find_cost(model, report.headline.cost), nullptr) << model.name;
+        const CostEntry* headed = find_cost(model, report.headline.cost);
+        if (report.family == "cloud" || report.family == "fog") {
+            EXPECT_FALSE(model.errors.empty() && model.costs.empty()) << model.name;
+            any = any || (error != nullptr && headed != nullptr);
+        } else {
+            ASSERT_NE(error, nullptr) << model.name;
+            EXPECT_GT(error->figures.count, 0U);
+            EXPECT_NE(headed, nullptr) << model.name;
+            any = true;
+        }
         if (report.family == "ephemeris") {
             EXPECT_EQ(report.headline.cost, "frame");
             const CostEntry* worst = find_cost(model, report.headline.worst_cost);
@@ -49,6 +57,7 @@ void expect_complete(const Report& report) {
             }
         }
     }
+    EXPECT_TRUE(any);
 }
 
 /// Bounds row by row are those of the tests of render/night; no source may stray from its tables as a whole.

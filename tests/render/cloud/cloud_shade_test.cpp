@@ -8,6 +8,7 @@
 #include <initializer_list>
 
 #include "render/cloud/slab_light.h"
+#include "render/sky_veil.h"
 #include "tests/render/cloud/lit_tables.h"
 
 namespace skyig::render {
@@ -73,6 +74,53 @@ TEST(CloudShade, GroundBelowIsAsDarkAsItsLight) {
     // No edge at the horizon.
     const auto at = [&](double above_rad) { return under.sun.clouded.share(above_rad); };
     EXPECT_NEAR(at(1e-9), at(-1e-9), 1e-5F);
+}
+
+// Fog is lit by what the clouds above it let through: as much darker as the ground.
+TEST(CloudShade, FogUnderCloudIsAsDarkAsTheGround) {
+    Scene scene;
+    scene.eye.height_m = 2.0;
+    scene.sun.direction_enu = {0.0, 0.6, 0.8};
+    scene.weather.obscurants[0] = Obscurant{.top_m = 100.0, .extinction_per_m = 0.015};
+    scene.weather.obscurant_count = 1;
+    tests::LitTables lit(scene);
+    const auto horizon_cd_m2 = [&] {
+        SkyVeil veil;
+        veil.lay(scene, lit.tables.air(), 1e-3, lit.sky);
+        return lit.sky.smooth_rgb_cd_m2(0.001, 0.5, Side::kSky).y;
+    };
+    const float clear = horizon_cd_m2();
+    const CloudLayer above = layer(1.0, 1000.0, 500.0, 30.0);
+    scene.weather.clouds[scene.weather.cloud_count++] = above;
+    lit.follow(scene);
+    const float under = horizon_cd_m2();
+    const float share = CloudShade(scene.weather, 0.1).at(100.0, 0.8).beam;
+    std::printf("fog under depth 30: %.3f of a clear day's, level light %.3f\n",
+                static_cast<double>(under / clear), static_cast<double>(share));
+    EXPECT_NEAR(under / clear, share, 0.08F);
+}
+
+// What drops and puddles mirror of an overcast: the flux under it over that of the clear sky.
+TEST(CloudShade, WhatIsMirroredOfACoveredSkyIsAsBrightAsItsLight) {
+    Scene scene;
+    scene.eye.height_m = 100.0;
+    scene.sun.direction_enu = {0.0, 0.6, 0.8};
+    tests::LitTables lit(scene);
+    EXPECT_EQ(lit.sky.overhead, 1.0F);
+    const auto mean_up_cd_m2 = [&] {
+        double sum = 0.0;
+        for (int i = 0; i < 400; ++i) {
+            const double elevation_rad = std::asin(std::sqrt((i + 0.5) / 400.0));
+            sum += static_cast<double>(lit.sky.covered_rgb_cd_m2(elevation_rad, 2.4 * i, Side::kSky).y);
+        }
+        return sum / 400.0;
+    };
+    const double ground_lux = 0.8 * lit.tables.air().direct_sun_xyz(0.0, std::asin(0.8)).y +
+                              lit.tables.air().ground_diffuse_xyz(std::asin(0.8)).y;
+    scene.weather = weather_of({layer(1.0, 1000.0, 500.0, 30.0)});
+    lit.follow(scene);
+    const double share = static_cast<double>(CloudShade(scene.weather, 0.1).at(0.0, 0.8).beam);
+    EXPECT_NEAR(mean_up_cd_m2() * 3.14159265 / (ground_lux * share), 1.0, 0.1);
 }
 
 TEST(CloudShade, IsContinuousInHeightCoverageAndDepth) {

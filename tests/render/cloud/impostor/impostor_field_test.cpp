@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "render/cloud/impostor/particle_field.h"
 #include "tests/render/cloud/impostor/moments.h"
 #include "tests/support/allocation_count.h"
 
@@ -48,70 +49,17 @@ ImpostorSettings few_cells() {
     return settings;
 }
 
-/// The clouds' own particles met one by one: what pictures are to look like.
-class Truth {
-  public:
-    Truth(const Sky& sky, const Eye& eye) : sky_(&sky) {
-        const auto range = static_cast<float>(sky.clouds.range_m());
-        for (const Cloud& cloud : sky.clouds.clouds()) {
-            const glm::vec3 middle{sky.clouds.middle_m(cloud, eye)};
-            const float distance = glm::length(middle);
-            if (cloud.particles == 0 || distance >= range) continue;
-            auto one = std::make_unique<One>();
-            one->shaded.resize(cloud.particles);
-            shade(sky.clouds.particles(cloud), sky.clouds.lit(cloud), sky.clouds.shading(), middle,
-                  one->shaded);
-            lay_out(one->shaded, one->spheres);
-            one->middle_m = middle;
-            one->distance_m = distance;
-            one->bound_m = cloud.bound_m;
-            const float s = std::clamp((distance / range - 0.85F) / 0.15F, 0.0F, 1.0F);
-            one->part = 1.0F - s * s * (3.0F - 2.0F * s);
-            clouds_.push_back(std::move(one));
-        }
-        std::sort(clouds_.begin(), clouds_.end(),
-                  [](const auto& a, const auto& b) { return a->distance_m < b->distance_m; });
-    }
-
-    [[nodiscard]] CloudSample at(const glm::vec3& ray) const {
-        const CloudLight::At light = sky_->light.at(1350.0);
-        CloudSample sample;
-        for (const auto& cloud : clouds_) {
-            const float along = glm::dot(ray, cloud->middle_m);
-            const float beside2 = cloud->distance_m * cloud->distance_m - along * along;
-            if (along < -cloud->bound_m || beside2 > cloud->bound_m * cloud->bound_m) continue;
-            const Texel texel = meet(cloud->shaded, cloud->spheres, ray, {});
-            sample.light_cd_m2 +=
-                sample.transmittance * cloud->part *
-                (texel.v[kSunlight] * light.beam_lx[CloudLight::kSun] +
-                 texel.v[kFromAbove] * light.above_cd_m2 + texel.v[kFromBelow] * light.below_cd_m2);
-            sample.transmittance *= 1.0F - cloud->part * texel.v[kOpacity];
-        }
-        return sample;
-    }
-
-  private:
-    struct One {
-        std::vector<Shaded> shaded;
-        Spheres spheres;
-        glm::vec3 middle_m{0.0F};
-        float distance_m = 0.0F;
-        float bound_m = 0.0F;
-        float part = 1.0F;
-    };
-    const Sky* sky_;
-    std::vector<std::unique_ptr<One>> clouds_;
-};
-
 /// Root mean square of the difference in display codes, over rays that see cloud.
 double rms_codes(const Sky& sky, const Eye& eye, std::size_t count) {
-    const Truth truth(sky, eye);
+    const ParticleField truth(sky.clouds, sky.light, eye);
     double squares = 0.0;
     std::size_t seen = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const glm::vec3 ray = spread_ray(i, count, 0.03, 0.9).direction_enu;
-        if (!beside_sun({ray})) continue;
-        const CloudSample direct = truth.at(ray);
+        const CloudRay way = spread_ray(i, count, 0.03, 0.9);
+        const glm::vec3 ray = way.direction_enu;
+        if (!beside_sun(way)) continue;
+        CloudSample direct;
+        truth.march({&way, 1}, {}, 0.0F, {&direct, 1});
         const CloudSample drawn = sky.at(ray, {}, 1e-4F);
         if (direct.transmittance > 0.999F && drawn.transmittance > 0.999F) continue;
         const double difference = code(drawn) - code(direct);
