@@ -178,12 +178,11 @@ MetarWeather of(const char* report) {
 }
 
 TEST(MetarWeather, LayersAreTheirOwnAmountOutsideOfTheStates) {
-    const char* groups = "011200Z 9999 SCT020 BKN050 20/10 Q1013";
-    const std::string europe = std::string("METAR EDDF ") + groups,
-                      states = std::string("METAR KORD ") + groups;
-    EXPECT_DOUBLE_EQ(of(europe.c_str()).layers[1].coverage, 6.0 / 8.0);
-    EXPECT_DOUBLE_EQ(of(states.c_str()).layers[1].coverage, (6.0 - 3.5) / (8.0 - 3.5));
-    EXPECT_DOUBLE_EQ(of(states.c_str()).layers[0].coverage, 3.5 / 8.0);
+    const char* europe = "METAR EDDF 011200Z 9999 SCT020 BKN050 20/10 Q1013";
+    const char* states = "METAR KORD 011200Z 9999 SCT020 BKN050 20/10 Q1013";
+    EXPECT_DOUBLE_EQ(of(europe).layers[1].coverage, 6.0 / 8.0);
+    EXPECT_DOUBLE_EQ(of(states).layers[1].coverage, (6.0 - 3.5) / (8.0 - 3.5));
+    EXPECT_DOUBLE_EQ(of(states).layers[0].coverage, 3.5 / 8.0);
 }
 
 TEST(MetarWeather, RatesGoByIntensity) {

@@ -197,7 +197,7 @@ TEST(Shading, IsHeldAgainstTheSlabTruth) {
         medians[m] = errors[errors.size() / 2];
         std::printf("slab, %-7s: median %.2f, 90th percentile %.2f of %zu rows\n", kNames[m], medians[m],
                     errors[errors.size() * 9 / 10], errors.size());
-        RecordProperty(std::string("slab_median_") + kNames[m], std::to_string(medians[m]));
+        RecordProperty(kNames[m], std::to_string(medians[m]));
     }
     EXPECT_LT(medians[2], 0.35);
     EXPECT_LT(medians[2], 0.6 * std::min(medians[0], medians[1]));
