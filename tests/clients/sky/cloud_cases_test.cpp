@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "clients/skyig/cloud/cases.h"
@@ -34,15 +35,22 @@ Outcome run(const std::string& table) {
     return outcome;
 }
 
-constexpr const char* kHeading =
+constexpr std::string_view kHeading =
     "optical_depth,asymmetry_g,single_scattering_albedo,sun_zenith_deg,quantity,view_zenith_deg,"
     "rel_azimuth_deg,note\n";
 
+/// Rows under the usual heading.
+Outcome run_rows(std::string_view rows) {
+    std::string table{kHeading};
+    table.append(rows);
+    return run(table);
+}
+
 TEST(CloudCases, KeepsColumnsAndAppendsTheDrawnFunctionsValue) {
-    const Outcome made = run(std::string(kHeading) +
-                             "0,0.85,1,30,R_brf,0,0,none\n"
-                             "16,0.85,1,diffuse,R_flux,,,\"a, b\"\r\n"
-                             "2,0.85,1,0,T_direct_flux,,,through\n");
+    const Outcome made = run_rows(
+        "0,0.85,1,30,R_brf,0,0,none\n"
+        "16,0.85,1,diffuse,R_flux,,,\"a, b\"\r\n"
+        "2,0.85,1,0,T_direct_flux,,,through\n");
     EXPECT_EQ(made.errors, "");
     EXPECT_EQ(made.count.rows, 3U);
     const Case even{{16.0, 0.85, 1.0}, std::nullopt, 0.0, 0.0};
@@ -56,11 +64,11 @@ TEST(CloudCases, KeepsColumnsAndAppendsTheDrawnFunctionsValue) {
 }
 
 TEST(CloudCases, BadRowsAreToldByLineAndColumnAndStayEmpty) {
-    const Outcome made = run(std::string(kHeading) +
-                             "x,0.85,1,30,R_brf,0,0,a\n"
-                             "1,0.85,1,30,glow,0,0,b\n"
-                             "1,0.85,1,diffuse,T_brf,0,0,c\n"
-                             "1,0.85\n");
+    const Outcome made = run_rows(
+        "x,0.85,1,30,R_brf,0,0,a\n"
+        "1,0.85,1,30,glow,0,0,b\n"
+        "1,0.85,1,diffuse,T_brf,0,0,c\n"
+        "1,0.85\n");
     EXPECT_EQ(made.count.bad_rows, 4U);
     EXPECT_THAT(made.errors, HasSubstr("in.csv:2: optical_depth: 'x' is not a number"));
     EXPECT_THAT(made.errors, HasSubstr("in.csv:3: quantity: 'glow' is none of R_brf"));
