@@ -92,7 +92,9 @@ TEST(Presets, HaveTheirExtras) {
     EXPECT_DOUBLE_EQ(with("snow").ground.snow_pct, 100.0);
     EXPECT_NEAR(find(with("cat3a"), LayerType::kFog)->thickness_m - 1000.0, 300.0 * kFoot_m, 1e-9);
     EXPECT_NEAR(find(with("cat1"), LayerType::kFog)->thickness_m - 1000.0, 220.0 * kFoot_m, 1e-9);
-    const config::WeatherLayer* patches = find(with("patchy-fog"), LayerType::kFog);
+    const config::Config patchy = with("patchy-fog");
+    const config::WeatherLayer* patches = find(patchy, LayerType::kFog);
+    ASSERT_NE(patches, nullptr);
     EXPECT_DOUBLE_EQ(patches->coverage, 0.5);
     EXPECT_DOUBLE_EQ(patches->visibility_m, 100.0);
 }
