@@ -161,7 +161,8 @@ TEST(Lightning, KeepsToItsArea) {
     double widest = 0.0;
     for (int i = 0; i < 4000; ++i) {
         scene.time_s = 0.29 * i;
-        for (const Flash& flash : flashes_at(scene).all()) {
+        const auto flashes = flashes_at(scene);
+        for (const Flash& flash : flashes.all()) {
             const glm::dvec2 off = glm::dvec2{flash.place_m} - area.centre_m;
             // Its own x axis, clockwise from north.
             const double along = std::abs(off.x * std::sin(0.5) + off.y * std::cos(0.5));
