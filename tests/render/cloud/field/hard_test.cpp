@@ -181,5 +181,28 @@ TEST(CloudField, RaysAreCutByTheirRange) {
     }
 }
 
+// A march that went back would add what it has added.
+TEST(CloudField, NothingIsAddedTwiceUnderALowBase) {
+    CloudLayer layer = layer_of(CloudGenus::kCumulus, 609.6, 609.6, 0.75);
+    layer.bottom_band_m = layer.top_band_m = 30.0;
+    layer.seed = 3844975861U;
+    Scene scene = scene_of({layer}, 450.0);
+    scene.eye.latitude_deg = 47.4582;
+    scene.eye.longitude_deg = 8.5555;
+    CloudField field(matrix());
+    field.freeze(scene, plain_light());
+    const std::vector<CloudRay> rays = sphere_of_rays(40, 120, 0.0, 1.5);
+    const std::vector<CloudSample> whole = seen(field, rays, {0.0F, 400.0F}, 0.05F);
+    const std::vector<CloudSample> near = seen(field, rays, {0.0F, 240.0F}, 0.05F);
+    const std::vector<CloudSample> far = seen(field, rays, {240.0F, 400.0F}, 0.05F);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const float joined = near[i].transmittance * far[i].transmittance;
+        worst = std::max(worst, static_cast<double>(std::abs(joined - whole[i].transmittance)));
+    }
+    std::printf("what passes in two parts against in one: off by %.4f at most\n", worst);
+    EXPECT_LT(worst, 0.01);
+}
+
 }  // namespace
 }  // namespace skyig::render::cloud::field
