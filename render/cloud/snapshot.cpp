@@ -13,10 +13,6 @@ namespace {
 constexpr LightAndPassed kClear{{0.0F, 0.0F, 0.0F, 1.0F}};
 constexpr CloudSample kNoCloud{};
 
-// Rays that tell whether a tile is worth a look stand so many texels apart, and are as wide.
-constexpr int kCoarseStep = 4;
-constexpr int kCoarse = kTile / kCoarseStep + 1;
-
 }  // namespace
 
 glm::dvec3 eye_offset_m(const Eye& from, const Eye& to) noexcept {
@@ -77,21 +73,14 @@ void Snapshot::march(const CloudSource& source, int tile) noexcept {
 
     std::array<CloudRay, kTileTexels> rays;
     std::array<CloudSample, kTileTexels> samples;
-    for (int i = 0; i < kCoarse * kCoarse; ++i) {
-        rays[static_cast<std::size_t>(i)].direction_enu =
-            direction(i % kCoarse * kCoarseStep, i / kCoarse * kCoarseStep);
-    }
-    constexpr std::size_t kCoarseCount = std::size_t{kCoarse} * kCoarse;
-    source.march(std::span{rays}.first<kCoarseCount>(), frozen_.range,
-                 static_cast<float>(kCoarseStep) * texel_rad, std::span{samples}.first<kCoarseCount>());
-    if (std::all_of(samples.begin(), samples.begin() + kCoarseCount,
+    for (int i = 0; i < kTileTexels; ++i)
+        rays[static_cast<std::size_t>(i)].direction_enu = direction(i % kTile, i / kTile);
+    source.march(rays, frozen_.range, texel_rad, samples);
+    if (std::all_of(samples.begin(), samples.end(),
                     [](const CloudSample& sample) { return sample == kNoCloud; })) {
         clear(tile);
         return;
     }
-    for (int i = 0; i < kTileTexels; ++i)
-        rays[static_cast<std::size_t>(i)].direction_enu = direction(i % kTile, i / kTile);
-    source.march(rays, frozen_.range, texel_rad, samples);
     for (int i = 0; i < kTileTexels; ++i) {
         const CloudSample& sample = samples[static_cast<std::size_t>(i)];
         const std::size_t to =

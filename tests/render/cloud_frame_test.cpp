@@ -106,6 +106,36 @@ Quality coarse() {
     return quality;
 }
 
+// Nothing but a wisp about one direction, no wider than a texel.
+class Wisp final : public cloud::CloudSource {
+  public:
+    explicit Wisp(const glm::vec3& middle) : middle_(glm::normalize(middle)) {}
+
+    void march(std::span<const cloud::CloudRay> rays, const cloud::CloudRange& /*range*/, float /*ray_rad*/,
+               std::span<cloud::CloudSample> out) const noexcept override {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const bool in = glm::length(glm::normalize(rays[i].direction_enu) - middle_) < 1e-3F;
+            out[i] = in ? cloud::CloudSample{glm::vec3{100.0F}, 0.5F, 3000.0F} : cloud::CloudSample{};
+        }
+    }
+
+  private:
+    glm::vec3 middle_;
+};
+
+TEST(CloudMapSchedule, AWispOfOneTexelIsNotLeftOut) {
+    const MapGeometry geometry(512);
+    cloud::Snapshot snapshot;
+    snapshot.resize(geometry, 0);
+    snapshot.begin({});
+    const int tile = 40;
+    const MapGeometry::Texel corner = geometry.corner(tile);
+    snapshot.march(Wisp(geometry.direction(corner.column + 6, corner.row + 9, corner.lower)), tile);
+    EXPECT_EQ(snapshot.tile(tile), cloud::Snapshot::Tile::kCloud);
+    snapshot.march(Wisp(geometry.direction(0, 0, !corner.lower)), tile);
+    EXPECT_EQ(snapshot.tile(tile), cloud::Snapshot::Tile::kClear);
+}
+
 TEST(CloudMapSchedule, FollowsAFixedNumberOfRaysAFrameAndNoneWhereAllStandsStill) {
     const FakeSheet sheet{};
     Scene scene = noon_scene(500.0);
