@@ -49,6 +49,7 @@ DeferredPass::DeferredPass()
             program_.uniform("u_veil_slants"),
             program_.uniform("u_veil_molecules"),
             program_.uniform("u_veil_aerosol"),
+            program_.uniform("u_veil_above_m"),
             {program_.uniform("u_veil_lux[0]"), program_.uniform("u_veil_lux[1]")},
             {program_.uniform("u_veil_enu[0]"), program_.uniform("u_veil_enu[1]")},
             {program_.uniform("u_veil_beyond[0]"), program_.uniform("u_veil_beyond[1]")}},
@@ -101,6 +102,7 @@ void DeferredPass::upload_veil(const DeferredAir& air) {
     const shaders64::VeilAir& front = air.air_before_veil();
     program_.set(veil_.molecules, glm::vec4{glm::dvec4{front.molecules_per_m, front.molecules_height_m}});
     program_.set(veil_.aerosol, glm::vec4{glm::dvec4{front.aerosol_per_m, front.aerosol_height_m}});
+    program_.set(veil_.above, static_cast<float>(front.above_m));
     for (std::size_t i = 0; i < 2; ++i) {
         program_.set(veil_.lux[i], glm::vec3{veil->sources().beams[i].lux});
         program_.set(veil_.direction[i], glm::vec3{veil->sources().beams[i].direction_enu});

@@ -41,7 +41,7 @@ class DeferredPass {
     std::array<gl::Texture, 2> rest_;
     std::array<gl::Texture, 2> haze_;
     struct VeilUniforms {
-        int count, radius, slants, molecules, aerosol;
+        int count, radius, slants, molecules, aerosol, above;
         std::array<int, 2> lux, direction, beyond;
     };
     VeilUniforms veil_;

@@ -162,7 +162,10 @@ glm::vec3 SkyLight::veiled(const glm::vec3& clear_cd_m2, double straight_rad, do
         shaders64::veil_rise_m(veil_m, {sine, veil->eye_radius_m()}), veil_m, front_air);
     glm::dvec3 endless{clear_cd_m2};
     if (!ground) {
-        endless /= 1.0 - shaders64::veil_all_air_passes(sine, front_air);
+        // A ray that goes down first meets all of it.
+        const double down = std::clamp(-sine / 0.02, 0.0, 1.0);
+        endless /=
+            glm::max(1.0 - shaders64::veil_all_air_passes(sine, front_air), glm::dvec3{std::max(down, 1e-6)});
     } else if ((1.0 - passes.z) * shaders64::veil_lost(sum.cut_depth) > kSeenThrough) {
         endless =
             glm::dvec3{clear_rgb_cd_m2(straight_horizon_rad, horizon_elevation_rad, azimuth_rad, false)};

@@ -71,12 +71,14 @@ fog::VeilSources veil_sources(const Scene& scene, const sky::AirTables& air, con
 }
 
 shaders64::VeilAir front_air(const sky::AirModel& model, double eye_height_m) noexcept {
-    const double height_m = std::max(eye_height_m, 0.0);
+    // Beyond it no number would hold both the air there and that at the ground.
+    constexpr double kNoAir_m = 60e3;
+    const double height_m = std::clamp(eye_height_m, 0.0, kNoAir_m);
     const double molecules_m = sky::column_above_m(model.molecules, 0.0);
     const double thinned = sky::column_above_m(model.molecules, height_m) / molecules_m;
     return {thinned * rgb_of(model.rayleigh_per_m),
             std::exp(-height_m / model.aerosol_scale_height_m) * rgb_of(model.aerosol_extinction_per_m),
-            molecules_m, model.aerosol_scale_height_m};
+            molecules_m, model.aerosol_scale_height_m, std::max(eye_height_m - kNoAir_m, 0.0)};
 }
 
 void SkyVeil::lay(const Scene& scene, const sky::AirTables& air, double smallest, SkyLight& light) noexcept {

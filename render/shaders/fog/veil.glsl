@@ -143,10 +143,11 @@ SKYIG_INLINE VeilSum veil_add(VeilSum sum, VeilSegment at, real from_m, real to_
 
 // The air before a veil far away: exponential in height.
 struct VeilAir {
-    rvec3 molecules_per_m;   // at the eye
+    rvec3 molecules_per_m;   // at the eye, or at the height below it where there is next to none any more
     rvec3 aerosol_per_m;
     real molecules_height_m;
     real aerosol_height_m;
+    real above_m;            // of the eye over that height
 };
 
 SKYIG_INLINE real veil_air_column_m(real rise_m, real along_m, real scale_m) {
@@ -157,6 +158,11 @@ SKYIG_INLINE real veil_air_column_m(real rise_m, real along_m, real scale_m) {
 
 // Of light from that far, from a place so much higher.
 SKYIG_INLINE rvec3 veil_air_passes(real rise_m, real along_m, VeilAir air) {
+    if (air.above_m > real(0.0)) {
+        real inside_m = min(rise_m + air.above_m, real(0.0));
+        along_m *= rise_m < real(0.0) ? inside_m / rise_m : real(0.0);
+        rise_m = inside_m;
+    }
     rvec3 depth = air.molecules_per_m * veil_air_column_m(rise_m, along_m, air.molecules_height_m) +
                   air.aerosol_per_m * veil_air_column_m(rise_m, along_m, air.aerosol_height_m);
     return exp(-depth);

@@ -22,6 +22,7 @@ uniform vec3 u_veil_lux[2];
 uniform vec3 u_veil_enu[2];      // towards the sources of that light
 uniform vec2 u_veil_slants;
 uniform vec3 u_veil_beyond[2];   // light from past it: sky, ground
+uniform float u_veil_above_m;
 uniform vec4 u_veil_molecules;   // VeilAir: per metre at the eye, scale height
 uniform vec4 u_veil_aerosol;
 
@@ -105,7 +106,7 @@ vec3 under_veil(vec3 colour, vec3 passed, vec3 added, vec3 far_cd_m2, vec3 view,
     VeilSum whole = near;
     walk(view, distance_m, near, whole);
     VeilRay ray = VeilRay(view.z, u_veil_radius_m);
-    VeilAir air = VeilAir(u_veil_molecules.xyz, u_veil_aerosol.xyz, u_veil_molecules.w, u_veil_aerosol.w);
+    VeilAir air = VeilAir(u_veil_molecules.xyz, u_veil_aerosol.xyz, u_veil_molecules.w, u_veil_aerosol.w, u_veil_above_m);
     float near_m = veil_distance_m(near);
     float whole_m = veil_distance_m(whole);
     vec3 before = veil_in_air(near, veil_air_passes(veil_rise_m(near_m, ray), near_m, air), far_cd_m2,

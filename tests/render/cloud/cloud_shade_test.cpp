@@ -100,6 +100,32 @@ TEST(CloudShade, FogUnderCloudIsAsDarkAsTheGround) {
     EXPECT_NEAR(under / clear, share, 0.08F);
 }
 
+// The air before a fog is told from the eye down: also where the eye has none round it.
+TEST(FogFromAbove, IsSeenThroughAllTheAirFromAnyHeight) {
+    Scene scene;
+    scene.sun.direction_enu = {0.0, 0.6, 0.8};
+    scene.weather.obscurants[0] = Obscurant{.top_m = 100.0, .extinction_per_m = 0.05};
+    scene.weather.obscurant_count = 1;
+    const auto down_cd_m2 = [&](double height_m) {
+        scene.eye.height_m = height_m;
+        tests::LitTables lit(scene);
+        SkyVeil veil;
+        veil.lay(scene, lit.tables.air(), 1e-3, lit.sky);
+        for (const double elevation_rad : {-1.5, -1.0, -0.4, -0.05, 0.0, 0.05, 1.5}) {
+            const glm::vec3 rgb = lit.sky.smooth_rgb_cd_m2(elevation_rad, 0.5, Side::kByElevation);
+            EXPECT_TRUE(std::isfinite(rgb.x + rgb.y + rgb.z)) << height_m << " m, " << elevation_rad;
+            EXPECT_LT(rgb.y, 1e5F) << height_m << " m, " << elevation_rad;
+        }
+        return static_cast<double>(lit.sky.smooth_rgb_cd_m2(-1.57, 0.5, Side::kGround).y);
+    };
+    const double low = down_cd_m2(50e3);
+    for (const double height_m : {59.9e3, 60.1e3, 100e3, 130e3, 400e3, 2000e3, 36000e3}) {
+        const double here = down_cd_m2(height_m);
+        std::printf("fog straight below %6.0f km: %.0f cd/m2, from 50 km %.0f\n", height_m * 1e-3, here, low);
+        EXPECT_NEAR(here / low, 1.0, 0.02) << height_m;
+    }
+}
+
 // What drops and puddles mirror of an overcast: the flux under it over that of the clear sky.
 TEST(CloudShade, WhatIsMirroredOfACoveredSkyIsAsBrightAsItsLight) {
     Scene scene;
