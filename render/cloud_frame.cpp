@@ -73,6 +73,7 @@ CloudFrame::CloudFrame(std::size_t screens) : laws_(screens), texels_(screens) {
 void CloudFrame::stop() noexcept {
     if (!shown_) return;
     map_.stop();
+    shadow_ = nullptr;
     shown_ = false;
     toned_.clear();
     clouded_.clear();
@@ -142,7 +143,11 @@ double CloudFrame::transmittance(Body body) const noexcept {
 
 glm::dvec3 CloudFrame::seen_through(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
                                     const glm::dvec3& direction_enu) const noexcept {
-    return shown_ ? composed(map_.sight(direction_enu), air, behind_cd_m2, direction_enu) : behind_cd_m2;
+    if (!shown_) return behind_cd_m2;
+    const glm::dvec3 shade_cd_m2 =
+        shadow_ != nullptr ? shadow_->change_cd_m2(air, direction_enu, map_.geometry().worst_texel_rad())
+                           : glm::dvec3{0.0};
+    return composed(map_.sight(direction_enu), air, behind_cd_m2 + shade_cd_m2, direction_enu);
 }
 
 glm::dvec3 CloudFrame::probed(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
@@ -179,6 +184,8 @@ void CloudFrame::look_up(int tile, const SkyLight& light, const DeferredAir& air
         backdrop.extinction[node] =
             glm::vec3{-glm::log(glm::max(between.passed_rgb, glm::dvec3{1e-12})) / distance_m};
         backdrop.convergence[node] = glm::vec3{between.added_rgb / kept};
+        backdrop.sunlit[node] =
+            shadow_ != nullptr ? glm::vec3{shadow_->seen_sunlit_cd_m2(air, direction)} : glm::vec3{0.0F};
     }
     backdrop.horizon = std::abs(middle_rad) < reach_rad;
     backdrop.steep = steep(backdrop.sky) || (backdrop.horizon && steep(backdrop.ground));
@@ -347,6 +354,48 @@ void CloudFrame::add_flashes(int tile, int row, cloud::ToneRow& out) const noexc
     }
 }
 
+void CloudFrame::gather_clear(cloud::ToneRow& out) const noexcept {
+    for (auto* part :
+         {out.light[0], out.light[1], out.light[2], out.opacity, out.reach_m, out.smooth[cloud::kNearLight],
+          out.smooth[cloud::kNearLight + 1], out.smooth[cloud::kNearLight + 2]})
+        std::fill_n(part, kTile, 0.0F);
+    std::fill_n(out.passed, kTile, 1.0F);
+}
+
+double CloudFrame::shaded_from_m(int tile) const noexcept {
+    if (shadow_ == nullptr || !shadow_->shown()) return 0.0;
+    const cloud::Cone& cone = map_.cone(tile);
+    // Straight down, or towards the edge of the tile that is nearest to that.
+    const double level = std::sqrt(std::max(1.0 - cone.axis.z * cone.axis.z, 0.0));
+    const double down = -cone.axis.z * cone.cosine + level * cone.sine;
+    const bool below = -cone.axis.z > cone.cosine;
+    const double sine = below ? 1.0 : std::clamp(down, -1.0, 1.0);
+    GroundShadow::Place place;
+    const double aside = std::sqrt(1.0 - sine * sine);
+    return shadow_->meets(glm::vec3{aside, 0.0, -sine}, 0.0F, place) ? static_cast<double>(place.distance_m)
+                                                                     : 0.0;
+}
+
+// Shadows and gaps where the beam comes to the ground.
+void CloudFrame::shade_row(int tile, int row, const Backdrop& backdrop, cloud::ToneRow& out) const noexcept {
+    const MapGeometry& geometry = map_.geometry();
+    const MapGeometry::Texel corner = geometry.corner(tile);
+    const Fold fold = fold_of(corner, geometry.size());
+    const auto texel_rad = static_cast<float>(geometry.worst_texel_rad());
+    float over_mean[kTile];
+    for (int i = 0; i < kTile; ++i) {
+        GroundShadow::Place place;
+        const glm::vec3 direction = geometry.direction(corner.column + i, corner.row + row, corner.lower);
+        over_mean[i] = shadow_->meets(direction, texel_rad, place) ? shadow_->over_mean(place) : 0.0F;
+    }
+    for (int c = 0; c < 3; ++c) {
+        spread(
+            fold, row, [&](std::size_t i) { return backdrop.sunlit[i][c]; }, out.shade[c]);
+        for (int i = 0; i < kTile; ++i)
+            out.shade[c][i] *= over_mean[i];
+    }
+}
+
 void CloudFrame::show_behind(const Backdrop& backdrop, Behind& behind) const noexcept {
     const auto show = [&](const glm::vec3(&light)[kNodeCount], float(&codes)[3][Behind::kPadded]) {
         for (std::size_t i = 0; i < Behind::kPadded; ++i) {
@@ -364,8 +413,10 @@ void CloudFrame::show_behind(const Backdrop& backdrop, Behind& behind) const noe
 // worked out.
 void CloudFrame::tone_tile(int tile, const SkyLight& light, std::size_t first) noexcept {
     const Backdrop& backdrop = backdrops_[static_cast<std::size_t>(tile)];
+    const bool clouded = map_.may_show(tile);
+    const bool shaded = shaded_from_m(tile) > 0.0;
     Nodes nodes;
-    fill_nodes(tile, nodes);
+    if (clouded) fill_nodes(tile, nodes);
     const MapGeometry& geometry = map_.geometry();
     const MapGeometry::Texel corner = geometry.corner(tile);
     const Fold fold = fold_of(corner, geometry.size());
@@ -373,10 +424,12 @@ void CloudFrame::tone_tile(int tile, const SkyLight& light, std::size_t first) n
     Behind behind;
     if (by_nodes) show_behind(backdrop, behind);
     const double horizon_sine = std::sin(light.horizon_elevation_rad);
-    cloud::ToneRow row;
+    cloud::ToneRow row{};
+    if (!clouded) gather_clear(row);
     float codes[3][kTile];
     for (int y = 0; y < kTile; ++y) {
-        gather_row(tile, y, nodes, row);
+        if (clouded) gather_row(tile, y, nodes, row);
+        if (shaded) shade_row(tile, y, backdrop, row);
         if (on_tile_.count > 0) add_flashes(tile, y, row);
         const auto lay = [&](const auto& at, float* out) { spread(fold, y, at, out); };
         for (int c = 0; c < 3; ++c) {
@@ -410,7 +463,11 @@ void CloudFrame::tone_tile(int tile, const SkyLight& light, std::size_t first) n
 // by less than a quarter of a fine pixel.
 bool CloudFrame::serves(int tile, std::uint64_t tone_revision) const noexcept {
     const Made& made = made_[static_cast<std::size_t>(tile)];
-    if (!made.clouded || made.tone != tone_revision || made.map != map_.revision()) return false;
+    if (!made.clouded || made.tone != tone_revision || made.map == 0) return false;
+    const double shaded_m = shaded_from_m(tile);
+    if (shaded_m > 0.0 ? !shadow_->serves(made.shadow, shaded_m, tile) : made.shadow.shaded) return false;
+    if (!map_.may_show(tile)) return !made.with_clouds;
+    if (made.map != map_.revision()) return false;
     constexpr float kStep_rad = 2.2e-4F;
     const glm::vec3 axis{map_.cone(tile).axis};
     const auto parts = map_.parts();
@@ -434,7 +491,7 @@ void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
         laws_[screen] = law_of(tones[screen]);
     for (const int tile : map_.seen_tiles()) {
         Made& made = made_[static_cast<std::size_t>(tile)];
-        if (map_.may_show(tile)) {
+        if (map_.may_show(tile) || shaded_from_m(tile) > 0.0) {
             clouded_tiles_.push_back(tile);
             clouded_.push_back(map_.cone(tile));
         } else if (made.clouded) {
@@ -460,6 +517,8 @@ void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
         toned_.push_back({tile, first});
         first += kTileFloats;
         made.clouded = true;
+        made.with_clouds = map_.may_show(tile);
+        made.shadow = shaded_from_m(tile) > 0.0 ? shadow_->now() : GroundShadow::Made{};
         made.map = map_.revision();
         made.tone = tone_revision;
         for (std::size_t k = 0; k < map_.parts().size(); ++k)

@@ -14,6 +14,7 @@
 #include "render/cloud/tile_tone.h"
 #include "render/deferred.h"
 #include "render/eye/adaptation.h"
+#include "render/ground_shadow.h"
 #include "render/shaders/shared.h"
 #include "render/sky_light.h"
 
@@ -41,6 +42,8 @@ class CloudFrame {
     /// The frame's clouds in linear light; from then on seen_through() and its like may be asked.
     void follow(cloud::CloudMaker& maker, const Scene& scene, const cloud::CloudLight& on_clouds,
                 const SkyLight& light, bool jumped, int size, int tiles_a_frame);
+    /// Shadows of this frame's clouds, null for none; it must live until the next call.
+    void shade_ground(const GroundShadow* shadow) noexcept { shadow_ = shadow; }
     /// Tones what has changed. \param tones  one for each screen \param light_revision  rises when the light
     /// has changed by what may show \param tone_revision  likewise \param flashes  that light the clouds
     void tone(const SkyLight& light, const DeferredAir& air, std::span<const shaders64::ToneParameters> tones,
@@ -77,6 +80,8 @@ class CloudFrame {
         glm::vec3 ground[kNodeCount];
         glm::vec3 extinction[kNodeCount];
         glm::vec3 convergence[kNodeCount];
+        /// What the beam that casts shadows adds to the ground.
+        glm::vec3 sunlit[kNodeCount];
         /// Both stand behind it.
         bool horizon = false;
         /// Light changes so much between nodes that its codes do not go straight.
@@ -90,6 +95,8 @@ class CloudFrame {
         bool clouded = false;
         bool flashed = false;
         std::array<glm::vec3, 2> offsets_m{};  // of the map's parts
+        bool with_clouds = false;
+        GroundShadow::Made shadow;
     };
     void resize();
     [[nodiscard]] glm::dvec3 composed(const cloud::CloudMap::Sight& sight, const DeferredAir& air,
@@ -102,12 +109,17 @@ class CloudFrame {
     void fill_nodes(int tile, Nodes& nodes) const noexcept;
     void gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRow& out) const noexcept;
     struct Behind;
+    /// How far the nearest ground of a tile is that shadows are told of; 0: there is none.
+    [[nodiscard]] double shaded_from_m(int tile) const noexcept;
+    void gather_clear(cloud::ToneRow& out) const noexcept;
+    void shade_row(int tile, int row, const Backdrop& backdrop, cloud::ToneRow& out) const noexcept;
     void show_behind(const Backdrop& backdrop, Behind& behind) const noexcept;
     void find_flashes(int tile) noexcept;
     void add_flashes(int tile, int row, cloud::ToneRow& out) const noexcept;
     [[nodiscard]] bool serves(int tile, std::uint64_t tone_revision) const noexcept;
 
     cloud::CloudMap map_;
+    const GroundShadow* shadow_ = nullptr;
     bool shown_ = false;
     bool jumped_ = false;
     std::vector<glm::vec3> probes_;

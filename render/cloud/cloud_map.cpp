@@ -7,9 +7,6 @@ namespace skyig::render::cloud {
 
 namespace {
 
-// The slot of the near map's source; the snapshots have those before it.
-constexpr std::size_t kNearSlot = CloudMaker::kSlots - 1;
-
 // Beyond where density ends, what an eye that climbs may cover while a snapshot serves.
 constexpr double kNearReserve_m = 100.0;
 
@@ -232,7 +229,7 @@ void CloudMap::show_near(CloudMaker& maker, const MapFrame& frame) {
     if (!near_shown_) return;
     Frozen frozen = frozen_at(frame, frame.moment.eye);
     frozen.range = {0.0F, static_cast<float>(kNearRange_m)};
-    near_rays_ = near_.march(maker.freeze(kNearSlot, frame.moment), frame.views, frozen);
+    near_rays_ = near_.march(maker.freeze(CloudMaker::kNearSlot, frame.moment), frame.views, frozen);
     ++revision_;
 }
 

@@ -35,6 +35,7 @@ struct ToneRow {
     float passed[kToneRow];    ///< of all light behind, by all clouds
     float reach_m[kToneRow];   ///< distance times opacity
     float smooth[kToneChannels][kToneRow];
+    float shade[3][kToneRow];  ///< what shadows and gaps add to what is behind, not told in kBehind
 };
 
 struct ToneKernel {
