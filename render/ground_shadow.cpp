@@ -51,6 +51,7 @@ void GroundShadow::stop() noexcept {
 
 void GroundShadow::update(cloud::CloudMaker& maker, const cloud::CloudMoment& moment,
                           const sky::AirTables& air, const SkyLight& light, bool jumped) {
+    map_.reserve();
     const Scene& scene = moment.scene;
     const Falling sun = falling(light.sun, scene.sun.direction_enu, air, light);
     const Falling moon = falling(light.moon, scene.moon.direction_enu, air, light);

@@ -120,6 +120,7 @@ void SkyFrame::refresh_clouds(const Scene& scene, double pixel_rad) {
     if ((!plan_.needs(Pass::kClouds) && !going) || made_clouds_.maker == nullptr) {
         clouds_.stop();
         ground_shadow_.stop();
+        plan_cloud_shadows(plan_, ground_shadow_.map(), false);
         return;
     }
     air_between(scene);
@@ -129,6 +130,7 @@ void SkyFrame::refresh_clouds(const Scene& scene, double pixel_rad) {
     ground_shadow_.update(*made_clouds_.maker, {scene, scene.eye, cloud_light_}, tables_.air(), light_,
                           tables_.jumped());
     clouds_.shade_ground(&ground_shadow_);
+    plan_cloud_shadows(plan_, ground_shadow_.map(), ground_shadow_.shown());
     plan_clouds(plan_, scene, size, cloud::NearMap::kSize, clouds_.map().near_map() != nullptr);
 }
 

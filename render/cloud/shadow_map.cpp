@@ -59,6 +59,12 @@ void ShadowMap::stop() noexcept {
     ++revision_;
 }
 
+void ShadowMap::reserve() {
+    cells_.reserve(kLevels * kSquare);
+    for (Grid& grid : grids_)
+        grid.passed.resize(kLevels * kSquare);
+}
+
 bool ShadowMap::stands_still(const ShadowFrame& frame) const noexcept {
     const glm::dvec2 away_m{eye_offset_m(made_eye_, frame.moment.eye)};
     return glm::dot(away_m, away_m) < kAway_m * kAway_m &&
@@ -84,7 +90,6 @@ void ShadowMap::follow(const ShadowFrame& frame) noexcept {
 
 void ShadowMap::begin(CloudMaker& maker, const ShadowFrame& frame) {
     Grid& grid = grids_[next_];
-    grid.passed.resize(kLevels * kSquare);
     for (std::size_t k = 0; k < kLevels; ++k) {
         const glm::dvec2 middle = -origin_m_ / static_cast<double>(kCell_m[k]);
         grid.low[k] = glm::ivec2{glm::round(middle)} - kCells / 2;
@@ -194,6 +199,7 @@ void ShadowMap::level(bool areas) noexcept {
 void ShadowMap::update(CloudMaker& maker, const ShadowFrame& frame) {
     const bool first = !shown_ || frame.jumped;
     if (first) {
+        reserve();
         last_eye_.reset();
         origin_m_ = {};
         seed_ = 0;
@@ -210,8 +216,6 @@ void ShadowMap::update(CloudMaker& maker, const ShadowFrame& frame) {
         making_ = false;
         blend_ = kRows;
         shown_ = changed = true;
-        for (Grid& grid : grids_)
-            grid.passed.resize(kLevels * kSquare);
     } else {
         if (blend_ < kRows) {
             blend_ = std::min(blend_ + kRowsAFrame, kRows);
@@ -229,16 +233,14 @@ void ShadowMap::update(CloudMaker& maker, const ShadowFrame& frame) {
         }
         if (!making_ && !stands_still(frame)) begin(maker, frame);
     }
-    if (!changed) return;
-    show(static_cast<double>(blend_) / kRows);
-    const auto clouds = frame.moment.scene.weather.all_clouds();
-    level(std::ranges::any_of(clouds, [](const CloudLayer& cloud) { return cloud.area.has_value(); }));
-    ++revision_;
-}
-
-glm::vec2 ShadowMap::corner_m(int level) const noexcept {
-    const auto k = static_cast<std::size_t>(level);
-    return glm::vec2{origin_m_ + glm::dvec2{low_[k]} * static_cast<double>(kCell_m[k])};
+    if (changed) {
+        show(static_cast<double>(blend_) / kRows);
+        const auto clouds = frame.moment.scene.weather.all_clouds();
+        level(std::ranges::any_of(clouds, [](const CloudLayer& cloud) { return cloud.area.has_value(); }));
+        ++revision_;
+    }
+    for (std::size_t k = 0; k < kLevels; ++k)
+        corners_m_[k] = glm::vec2{origin_m_ + glm::dvec2{low_[k]} * static_cast<double>(kCell_m[k])};
 }
 
 float ShadowMap::at(const glm::vec2& ground_m) const noexcept {
@@ -247,8 +249,8 @@ float ShadowMap::at(const glm::vec2& ground_m) const noexcept {
     float sum = 0.0F;
     float left = 1.0F;
     for (std::size_t k = 0; k < kLevels && left > 0.0F; ++k) {
-        const glm::vec2 place = (ground_m - corner_m(static_cast<int>(k))) / kCell_m[k] - 0.5F;
-        const auto last = static_cast<float>(kCells - 1);
+        const glm::vec2 place = (ground_m - corners_m_[k]) * (1.0F / kCell_m[k]) - 0.5F;
+        constexpr auto last = static_cast<float>(kCells - 1);
         const float inside =
             std::min({place.x, place.y, last - place.x, last - place.y}) * (1.0F / (kFade * last));
         if (!(inside > 0.0F)) continue;

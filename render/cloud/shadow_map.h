@@ -38,7 +38,9 @@ class ShadowMap {
     static constexpr int kRowsAFrame = 6;
     static constexpr int kFrames = kLevels * kCells / kRowsAFrame;
 
-    /// Allocates at the first call.
+    /// Takes all the memory that it ever needs.
+    void reserve();
+    /// Allocates at the first call, unless reserve() was called.
     void update(CloudMaker& maker, const ShadowFrame& frame);
     /// Forgets all; the next update() begins at once.
     void stop() noexcept;
@@ -59,7 +61,9 @@ class ShadowMap {
     [[nodiscard]] const glm::dvec2& origin_m() const noexcept { return origin_m_; }
     /// The shown cells, a square after the other, the southernmost row first, and where a square begins.
     [[nodiscard]] std::span<const float> cells() const noexcept { return cells_; }
-    [[nodiscard]] glm::vec2 corner_m(int level) const noexcept;
+    [[nodiscard]] const glm::vec2& corner_m(int level) const noexcept {
+        return corners_m_[static_cast<std::size_t>(level)];
+    }
 
   private:
     struct Grid {
@@ -79,9 +83,9 @@ class ShadowMap {
     std::size_t new_ = 1;
     std::size_t next_ = 2;
     std::vector<float> cells_;
-    std::vector<float> blurred_;
     std::array<glm::ivec2, kLevels> low_{};
     glm::dvec2 origin_m_{0.0};
+    std::array<glm::vec2, kLevels> corners_m_{};
     bool shown_ = false;
     bool making_ = false;
     int rows_ = 0;   // made of the next one

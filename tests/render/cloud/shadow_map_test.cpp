@@ -153,6 +153,21 @@ TEST(ShadowMap, GrowingCloudsChangeItWithoutAPop) {
     EXPECT_EQ(map.revision(), at_rest);
 }
 
+TEST(ShadowMap, PlanSaysWhetherAnyAreCast) {
+    Day day(0.5, 50.0);
+    tests::LitTables lit(day.scene);
+    ShadowMap map;
+    plan_clouds(lit.plan, day.scene, 512, 256, false);
+    plan_cloud_shadows(lit.plan, map, false);
+    EXPECT_FALSE(lit.plan.needs(Pass::kCloudShadows));
+    day.update(map, maker(), day.mean());
+    plan_cloud_shadows(lit.plan, map, true);
+    EXPECT_TRUE(lit.plan.needs(Pass::kCloudShadows));
+    EXPECT_EQ(lit.plan[Pass::kCloudShadows].resolution.columns, ShadowMap::kCells);
+    plan_cloud_shadows(lit.plan, map, false);
+    EXPECT_FALSE(lit.plan.needs(Pass::kCloudShadows));
+}
+
 TEST(GroundShadow, LeavesTheMeanLightOfTheGroundAsItIs) {
     Day day(0.5, 50.0);
     day.scene.sun.direction_enu = day.source_enu;
