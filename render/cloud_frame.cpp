@@ -23,6 +23,11 @@ cloud::ToneLaw law_of(const shaders64::ToneParameters& tone) noexcept {
             f(tone.ambient),   f(tone.shoulder), f(tone.encode_power)};
 }
 
+glm::vec3 map_direction(const glm::dvec3& direction_enu) noexcept {
+    return glm::vec3{direction_enu /
+                     (std::abs(direction_enu.x) + std::abs(direction_enu.y) + std::abs(direction_enu.z))};
+}
+
 // Whether some component of the light changes by more than an eighth from node to node.
 bool steep(const glm::vec3 (&light)[25]) noexcept {
     constexpr float kStep = 0.125F;
@@ -148,6 +153,20 @@ glm::dvec3 CloudFrame::seen_through(const DeferredAir& air, const glm::dvec3& be
         shadow_ != nullptr ? shadow_->change_cd_m2(air, direction_enu, map_.geometry().worst_texel_rad())
                            : glm::dvec3{0.0};
     return composed(map_.sight(direction_enu), air, behind_cd_m2 + shade_cd_m2, direction_enu);
+}
+
+glm::dvec3 CloudFrame::before_thing(const DeferredAir& air, const glm::dvec3& thing_cd_m2,
+                                    const glm::dvec3& direction_enu, double distance_m) const noexcept {
+    if (!shown_) return thing_cd_m2;
+    const cloud::CloudMap::Sight sight = map_.sight(direction_enu);
+    double near_passed = 1.0;
+    if (const cloud::NearMap* near = map_.near_map())
+        near_passed = static_cast<double>(near->seen(map_direction(direction_enu))[3]);
+    const double before =
+        shaders64::passed_before(sight.transmittance, near_passed, distance_m, cloud::kNearRange_m,
+                                 sight.distance_m > 0.0 ? 1.0 / sight.distance_m : 0.0);
+    const glm::dvec3 all_cd_m2 = composed(sight, air, glm::dvec3{0.0}, direction_enu);
+    return before * thing_cd_m2 + shaders64::light_before(sight.transmittance, before) * all_cd_m2;
 }
 
 glm::dvec3 CloudFrame::probed(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
@@ -282,9 +301,9 @@ void CloudFrame::gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRo
     const MapGeometry::Texel corner = geometry.corner(tile);
     const auto parts = map_.parts();
     const Fold fold = fold_of(corner, geometry.size());
-    float near_passed[kTile];
+    const auto& near_passed = out.near_passed;
     spread(
-        fold, row, [&](std::size_t i) { return nodes.near[i].v[3]; }, near_passed);
+        fold, row, [&](std::size_t i) { return nodes.near[i].v[3]; }, out.near_passed);
     float near_share = 0.0F;
     float inverse_m[2][kTile];
     for (std::size_t part = 0; part < parts.size(); ++part) {
@@ -319,6 +338,10 @@ void CloudFrame::gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRo
         out.passed[i] = sum[3];
         out.opacity[i] = opacity;
         out.reach_m[i] = reach_m;
+        constexpr float kSome = 1e-3F;
+        out.inverse_per_m[i] = opacity > kSome && reach_m > 0.0F
+                                   ? opacity / reach_m
+                                   : inverse_m[parts.size() - 1][i] / glm::length(direction);
     }
 }
 
@@ -359,7 +382,24 @@ void CloudFrame::gather_clear(cloud::ToneRow& out) const noexcept {
          {out.light[0], out.light[1], out.light[2], out.opacity, out.reach_m, out.smooth[cloud::kNearLight],
           out.smooth[cloud::kNearLight + 1], out.smooth[cloud::kNearLight + 2]})
         std::fill_n(part, kTile, 0.0F);
-    std::fill_n(out.passed, kTile, 1.0F);
+    for (auto* part : {out.passed, out.near_passed})
+        std::fill_n(part, kTile, 1.0F);
+    std::fill_n(out.inverse_per_m, kTile, 0.0F);
+}
+
+void CloudFrame::serve_things() noexcept {
+    if (serves_things_) return;
+    serves_things_ = true;
+    for (Made& made : made_)
+        made.map = 0;
+}
+
+void CloudFrame::tell_things(const cloud::ToneRow& row, int y, std::size_t first) noexcept {
+    float* tile = &things_[first / kTileFloats * kThingFloats];
+    const auto place = static_cast<std::size_t>(y) * kTile;
+    cloud::tone_kernel().seen(row, tile + 4 * place);
+    std::copy_n(row.inverse_per_m, kTile, tile + 4 * cloud::kTileTexels + place);
+    std::copy_n(row.near_passed, kTile, tile + 5 * cloud::kTileTexels + place);
 }
 
 double CloudFrame::shaded_from_m(int tile) const noexcept {
@@ -452,6 +492,7 @@ void CloudFrame::tone_tile(int tile, const SkyLight& light, std::size_t first) n
                 if (by_nodes) codes[c][i] = ground_codes[i];
             }
         }
+        if (serves_things_) tell_things(row, y, first);
         for (std::size_t screen = 0; screen < laws_.size(); ++screen) {
             cloud::tone_kernel().tone(laws_[screen], row, by_nodes ? codes[0] : nullptr,
                                       &texels_[screen][first + static_cast<std::size_t>(y * kTile * 4)]);
@@ -506,6 +547,8 @@ void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
     for (auto& texels : texels_) {
         if (texels.size() < most) texels.resize(most + most / 2);
     }
+    const std::size_t of_things = serves_things_ ? texels_[0].size() / kTileFloats * kThingFloats : 0;
+    if (things_.size() < of_things) things_.resize(of_things);
     std::size_t first = 0;
     for (const int tile : clouded_tiles_) {
         Made& made = made_[static_cast<std::size_t>(tile)];

@@ -32,6 +32,9 @@ class CloudFrame {
   public:
     /// Of the tiles whose sky has changed, what a frame looks up.
     static constexpr std::size_t kBackdropsAFrame = 16;
+    /// Floats of what things of another renderer ask of a tile: the clouds' light with the air between and
+    /// the transmittance of all, then over their distance, then the transmittance of near ones.
+    static constexpr std::size_t kThingFloats = std::size_t{cloud::kTileTexels} * 6;
     /// Floats of a toned tile: colour and factor, row by row. \see cloud::ToneKernel
     static constexpr std::size_t kTileFloats = std::size_t{cloud::kTileTexels} * 4;
 
@@ -44,6 +47,8 @@ class CloudFrame {
                 const SkyLight& light, bool jumped, int size, int tiles_a_frame);
     /// Shadows of this frame's clouds, null for none; it must live until the next call.
     void shade_ground(const GroundShadow* shadow) noexcept { shadow_ = shadow; }
+    /// From now on things stand among the clouds: tones all again.
+    void serve_things() noexcept;
     /// Tones what has changed. \param tones  one for each screen \param light_revision  rises when the light
     /// has changed by what may show \param tone_revision  likewise \param flashes  that light the clouds
     void tone(const SkyLight& light, const DeferredAir& air, std::span<const shaders64::ToneParameters> tones,
@@ -54,6 +59,10 @@ class CloudFrame {
     /// The same for all screens.
     [[nodiscard]] std::span<const TonedTile> toned() const noexcept { return toned_; }
     [[nodiscard]] std::span<const float> texels(std::size_t screen) const noexcept { return texels_[screen]; }
+    /// kThingFloats of a toned tile that shows clouds, once serve_things() was called.
+    [[nodiscard]] std::span<const float> things(const TonedTile& toned) const noexcept {
+        return std::span{things_}.subspan(toned.first / kTileFloats * kThingFloats, kThingFloats);
+    }
     /// Rises when the map has got another size: all of it is clear until told otherwise.
     [[nodiscard]] std::uint64_t size_revision() const noexcept { return size_revision_; }
     /// Cones of the tiles that show clouds to a view.
@@ -67,6 +76,10 @@ class CloudFrame {
     /// What is seen of light behind all clouds and air, with the clouds' own. \param direction_enu  in a view
     [[nodiscard]] glm::dvec3 seen_through(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
                                           const glm::dvec3& direction_enu) const noexcept;
+    /// What is seen of a thing in air, and of the clouds before it. \param thing_cd_m2  with the air before
+    /// it
+    [[nodiscard]] glm::dvec3 before_thing(const DeferredAir& air, const glm::dvec3& thing_cd_m2,
+                                          const glm::dvec3& direction_enu, double distance_m) const noexcept;
     /// The same in the direction of one of eye::probe_directions().
     [[nodiscard]] glm::dvec3 probed(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
                                     std::size_t probe) const noexcept;
@@ -104,6 +117,7 @@ class CloudFrame {
                                       const glm::dvec3& direction_enu) const noexcept;
     void refresh_backdrops(const SkyLight& light, const DeferredAir& air, std::uint64_t revision);
     void look_up(int tile, const SkyLight& light, const DeferredAir& air) noexcept;
+    void tell_things(const cloud::ToneRow& row, int y, std::size_t first) noexcept;
     void tone_tile(int tile, const SkyLight& light, std::size_t first) noexcept;
     struct Nodes;
     void fill_nodes(int tile, Nodes& nodes) const noexcept;
@@ -130,6 +144,8 @@ class CloudFrame {
     cloud::Flashes on_tile_;  // of those, what lights the tile in hand
     std::vector<TonedTile> toned_;
     std::vector<std::vector<float>> texels_;
+    bool serves_things_ = false;
+    std::vector<float> things_;
     std::vector<cloud::Cone> clouded_;
     std::vector<int> clouded_tiles_;
     std::size_t next_backdrop_ = 0;

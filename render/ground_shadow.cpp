@@ -70,6 +70,12 @@ void GroundShadow::update(cloud::CloudMaker& maker, const cloud::CloudMoment& mo
                         jumped || turned});
     ++frames_;
     height_m_ = std::max(moment.eye.height_m, 0.5);
+    heights_m_ = {1e6, 0.0};
+    for (const CloudLayer& cloud : scene.weather.all_clouds()) {
+        if (!(cloud.coverage > 0.0)) continue;
+        heights_m_.x = std::min(heights_m_.x, cloud.base_m);
+        heights_m_.y = std::max(heights_m_.y, cloud.base_m + cloud.thickness_m);
+    }
     const double radius_m = kEarthRadius_m + height_m_;
     const double excess_m2 = height_m_ * (2.0 * kEarthRadius_m + height_m_);
     excess_m_ = static_cast<float>(excess_m2 / radius_m);
@@ -115,6 +121,15 @@ glm::dvec3 GroundShadow::change_cd_m2(const DeferredAir& air, const glm::dvec3& 
     if (!shown_ || !meets(glm::vec3{direction_enu}, static_cast<float>(ray_rad), place))
         return glm::dvec3{0.0};
     return static_cast<double>(over_mean(place)) * seen_sunlit_cd_m2(air, direction_enu);
+}
+
+glm::dvec3 GroundShadow::on_thing(const glm::dvec3& at_m) const noexcept {
+    if (!shown_) return glm::dvec3{1.0};
+    const double height_m = shaders64::height_over_ground(at_m, height_m_);
+    const glm::vec2 place{shaders64::shadow_place(at_m, height_m, source_enu_)};
+    const double strength = shaders64::shadow_strength(height_m, heights_m_.x, heights_m_.y);
+    const double change = strength * static_cast<double>(map_.at(place) - map_.mean());
+    return glm::max(1.0 + beam_over_mean_ * change, 0.0);
 }
 
 bool GroundShadow::serves(const Made& made, double distance_m, int part) const noexcept {

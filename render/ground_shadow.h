@@ -29,6 +29,12 @@ class GroundShadow {
     /// What a level surface gets by the whole beam over what it gets in the mean, by component.
     [[nodiscard]] const glm::dvec3& beam_over_mean() const noexcept { return beam_over_mean_; }
     [[nodiscard]] const glm::dvec3& source_enu() const noexcept { return source_enu_; }
+    /// Lowest base and highest top of the clouds, over the ground: between them shadows begin.
+    [[nodiscard]] const glm::dvec2& heights_m() const noexcept { return heights_m_; }
+    [[nodiscard]] double eye_height_m() const noexcept { return height_m_; }
+    /// What a level thing's light becomes, that is told under the mean. \param at_m  east, north, up of the
+    /// eye
+    [[nodiscard]] glm::dvec3 on_thing(const glm::dvec3& at_m) const noexcept;
 
     /// Where a ray meets the ground, as seen (refraction would move it by a hundredth).
     struct Place {
@@ -68,6 +74,7 @@ class GroundShadow {
     glm::dvec3 source_enu_{0.0, 0.0, 1.0};
     glm::dvec3 sunlit_cd_m2_{0.0};
     glm::dvec3 beam_over_mean_{0.0};
+    glm::dvec2 heights_m_{0.0};
     double height_m_ = 0.0;
     // Of the round ground below the eye: lengths and ratios that do not cancel.
     float excess_m_ = 0.0F;

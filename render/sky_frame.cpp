@@ -134,6 +134,11 @@ void SkyFrame::refresh_clouds(const Scene& scene, double pixel_rad) {
     plan_clouds(plan_, scene, size, cloud::NearMap::kSize, clouds_.map().near_map() != nullptr);
 }
 
+void SkyFrame::serve_things() noexcept {
+    clouds_.serve_things();
+    tone_clouds();
+}
+
 void SkyFrame::tone_clouds() noexcept {
     if (!clouds_.shown()) return;
     clouds_.tone(light_, *air_between_, tones_, light_revision_, vertices_revision_, flashes_);

@@ -94,6 +94,8 @@ class SkyFrame {
     [[nodiscard]] const DeferredAir* air_between() const noexcept {
         return air_between_ ? &*air_between_ : nullptr;
     }
+    /// From this frame on things stand among the clouds.
+    void serve_things() noexcept;
     [[nodiscard]] Dome& dome() noexcept { return dome_; }
     [[nodiscard]] const Dome& dome() const noexcept { return dome_; }
     [[nodiscard]] MilkyWay& milky_way() noexcept { return milky_way_; }

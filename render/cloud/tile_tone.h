@@ -35,7 +35,9 @@ struct ToneRow {
     float passed[kToneRow];    ///< of all light behind, by all clouds
     float reach_m[kToneRow];   ///< distance times opacity
     float smooth[kToneChannels][kToneRow];
-    float shade[3][kToneRow];  ///< what shadows and gaps add to what is behind, not told in kBehind
+    float near_passed[kToneRow];    ///< of it, by near clouds
+    float inverse_per_m[kToneRow];  ///< over the distance of far ones, smooth where there are none
+    float shade[3][kToneRow];       ///< what shadows and gaps add to what is behind, not told in kBehind
 };
 
 struct ToneKernel {
@@ -44,6 +46,8 @@ struct ToneKernel {
     /// \param out  kToneRow times red, green, blue and factor: a display code c behind becomes c * factor +
     /// colour
     void (*tone)(const ToneLaw& law, const ToneRow& row, const float* code, float* out);
+    /// \param out  kToneRow times what is seen of the clouds, red, green, blue, and `passed`
+    void (*seen)(const ToneRow& row, float* out);
     /// shown() of linear Rec.709, in place.
     void (*show)(const ToneLaw& law, float* red, float* green, float* blue);
 };
