@@ -23,8 +23,8 @@ class NearMap {
     int march(const CloudSource& source, std::span<const ChannelView> views, const Frozen& frozen) noexcept;
 
     /// \param direction  components whose sizes sum to 1
-    [[nodiscard]] LightAndPassed::Lanes seen(const glm::vec3& direction) const noexcept {
-        return map_.seen(direction, 0.0F, glm::vec3{0.0F}).light;
+    [[nodiscard]] Snapshot::Seen seen(const glm::vec3& direction) const noexcept {
+        return map_.seen(direction, 0.0F, glm::vec3{0.0F});
     }
 
   private:

@@ -59,6 +59,11 @@ class Snapshot {
     [[nodiscard]] const Frozen& frozen() const noexcept { return frozen_; }
     [[nodiscard]] Tile tile(int index) const noexcept { return tiles_[static_cast<std::size_t>(index)]; }
     [[nodiscard]] std::span<const CloudSample> probes() const noexcept { return probes_; }
+    /// Of all texels: four floats of each; distance times opacity. For the loops of tile_tone.h.
+    [[nodiscard]] const float* light_and_passed() const noexcept {
+        return reinterpret_cast<const float*>(light_.data());
+    }
+    [[nodiscard]] const float* reach_m() const noexcept { return reach_m_.data(); }
 
     /// What another eye sees. \param direction  components whose sizes sum to 1 \param inverse_m  over the
     /// distance, as inverse_distance() has it \param offset_m  of that eye
