@@ -108,12 +108,9 @@ void look_up(CloudBackdrop& backdrop, const cloud::CloudMap& map, int tile, cons
 }
 
 void look_up(NearNodes& near, const cloud::CloudMap& map, int tile) noexcept {
-    near.share = NearNodes::Share::kNone;
+    near.any = false;
     if (map.near_map() == nullptr) return;
-    // What passes by less is not seen, by a third of a code where it is thirty times as bright.
-    constexpr float kHidden = 1e-4F;
     const MapGeometry::Texel corner = map.geometry().corner(tile);
-    float least = 1.0F, most = 0.0F;
     for (int i = 0; i < kNodeCount; ++i) {
         const MapGeometry::Texel at = node_of(corner, i);
         const Snapshot::Seen seen =
@@ -122,23 +119,15 @@ void look_up(NearNodes& near, const cloud::CloudMap& map, int tile) noexcept {
             near.light[c][i] = seen.light[c];
         near.passed[i] = seen.light[3];
         near.reach_m[i] = seen.reach_m;
-        least = std::min(least, seen.light[3]);
-        most = std::max(most, seen.light[3]);
+        near.any = near.any || seen.light[3] < 1.0F;
     }
-    const auto parts = map.parts();
-    const bool past = std::any_of(parts.begin(), parts.end(),
-                                  [](const cloud::CloudMap::Part& part) { return !part.beyond_near; });
-    if (most < kHidden && !past)
-        near.share = NearNodes::Share::kAll;
-    else if (least < 1.0F)
-        near.share = NearNodes::Share::kSome;
 }
 
 bool still_serves(const NearNodes& made, const NearNodes& wanted) noexcept {
     constexpr float kPassedStep = 1e-4F;
     constexpr float kLightStep = 1.5e-3F;
-    if (made.share != wanted.share) return false;
-    if (made.share == NearNodes::Share::kNone) return true;
+    if (made.any != wanted.any) return false;
+    if (!made.any) return true;
     for (int i = 0; i < kNodeCount; ++i) {
         if (std::abs(made.passed[i] - wanted.passed[i]) > kPassedStep) return false;
         for (int c = 0; c < 3; ++c) {
@@ -194,7 +183,15 @@ void CloudTile::take(const cloud::CloudMap& map, int tile, const CloudBackdrop& 
     copy_rgb(backdrop.ground, tile_.ground);
     copy_rgb(backdrop.extinction, tile_.smooth + cloud::kExtinction);
     copy_rgb(backdrop.convergence, tile_.smooth + cloud::kConvergence);
-    float near_share = 0.0F;
+    take_parts(map);
+    tile_.near = near.any;
+    if (near.any) take_near(backdrop, near);
+    covered_ = near.any && hides_far(map);
+}
+
+void CloudTile::take_parts(const cloud::CloudMap& map) noexcept {
+    const MapGeometry::Texel corner{tile_.column, tile_.row, tile_.lower};
+    near_share_ = 0.0F;
     tile_.part_count = 0;
     for (const cloud::CloudMap::Part& part : map.parts()) {
         cloud::TonePart& to = tile_.parts[tile_.part_count++];
@@ -204,40 +201,61 @@ void CloudTile::take(const cloud::CloudMap& map, int tile, const CloudBackdrop& 
         for (int c = 0; c < 3; ++c)
             to.offset_m[c] = part.offset_m[c];
         to.beyond_near = part.beyond_near;
-        near_share += part.beyond_near ? part.weight : 0.0F;
+        near_share_ += part.beyond_near ? part.weight : 0.0F;
         for (int i = 0; i < kNodeCount; ++i) {
             const MapGeometry::Texel at = node_of(corner, i);
             to.inverse_m[i] = part.snapshot->inverse_distance(at.column / Snapshot::kNodeStep,
                                                               at.row / Snapshot::kNodeStep, at.lower);
         }
     }
-    take_near(backdrop, near, flashes, near_share);
 }
 
-void CloudTile::take_near(const CloudBackdrop& backdrop, const NearNodes& near, const cloud::Flashes& flashes,
-                          float near_share) noexcept {
-    tile_.near = near.share != NearNodes::Share::kNone;
-    covered_ = false;
-    if (!tile_.near) return;
+void CloudTile::take_near(const CloudBackdrop& backdrop, const NearNodes& near) noexcept {
     copy(near.passed, tile_.near_passed);
     for (int i = 0; i < kNodeCount; ++i) {
         const float opacity = 1.0F - near.passed[i];
         const float distance_m = opacity > 1e-6F ? near.reach_m[i] / opacity : 0.0F;
         glm::vec3 added{0.0F};
-        if (flashes.count > 0 && opacity > 1e-3F) {
+        if (flashes_.count > 0 && opacity > 1e-3F) {
             const glm::dvec3 place_m =
                 glm::normalize(glm::dvec3{direction_of_node(i)}) * static_cast<double>(distance_m);
-            for (const cloud::Flash& flash : flashes.all())
+            for (const cloud::Flash& flash : flashes_.all())
                 added += opacity * flash_inside_cd_m2(flash, place_m);
         }
         for (int c = 0; c < 3; ++c) {
             const float clear = std::exp(-backdrop.near_extinction[c][i] * distance_m);
             tile_.smooth[cloud::kNearLight + c][i] =
-                near_share * ((near.light[c][i] + added[c]) * clear +
-                              opacity * (1.0F - clear) * backdrop.near_convergence[c][i]);
+                near_share_ * ((near.light[c][i] + added[c]) * clear +
+                               opacity * (1.0F - clear) * backdrop.near_convergence[c][i]);
         }
     }
-    covered_ = near.share == NearNodes::Share::kAll && !steep(tile_.smooth + cloud::kNearLight);
+}
+
+// Whether what shows past near clouds is less than half a code, as far as nodes tell.
+bool CloudTile::hides_far(const cloud::CloudMap& map) const noexcept {
+    constexpr float kMostPassed = 0.02F;
+    constexpr float kHidden = 0.004F;
+    const auto* near_light = tile_.smooth + cloud::kNearLight;
+    const float passed = *std::max_element(tile_.near_passed, tile_.near_passed + kNodeCount);
+    const bool past = near_share_ < 0.999F;
+    if (past || passed > kMostPassed || steep(near_light)) return false;
+    glm::vec3 far{0.0F}, near{1e30F};
+    for (int i = 0; i < kNodeCount; ++i) {
+        const glm::vec3 direction = direction_of_node(i);
+        glm::vec3 seen{0.0F};
+        for (int k = 0; k < tile_.part_count; ++k) {
+            const cloud::CloudMap::Part& part = map.parts()[static_cast<std::size_t>(k)];
+            const auto light =
+                part.snapshot->seen(direction, tile_.parts[k].inverse_m[i], part.offset_m).light;
+            seen += part.weight * glm::vec3{light[0], light[1], light[2]};
+        }
+        for (int c = 0; c < 3; ++c) {
+            far[c] = std::max(far[c], seen[c] + std::max(tile_.smooth[cloud::kBehind + c][i],
+                                                         tile_.horizon ? tile_.ground[c][i] : 0.0F));
+            near[c] = std::min(near[c], near_light[c][i]);
+        }
+    }
+    return glm::all(glm::lessThanEqual(passed * far, kHidden * near));
 }
 
 void CloudTile::add_flashes(int row) noexcept {

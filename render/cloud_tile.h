@@ -38,9 +38,8 @@ struct NearNodes {
     CloudBackdrop::Nodes light{};
     float passed[cloud::kNodeFloats]{};
     float reach_m[cloud::kNodeFloats]{};
-    /// What they are to the tile: nothing, something, or all that is seen.
-    enum class Share { kNone, kSome, kAll };
-    Share share = Share::kNone;
+    /// Whether there are any.
+    bool any = false;
 };
 
 /// Nothing of them while the map shows none.
@@ -63,8 +62,9 @@ class CloudTile {
               std::size_t first) noexcept;
 
   private:
-    void take_near(const CloudBackdrop& backdrop, const NearNodes& near, const cloud::Flashes& flashes,
-                   float near_share) noexcept;
+    void take_parts(const cloud::CloudMap& map) noexcept;
+    void take_near(const CloudBackdrop& backdrop, const NearNodes& near) noexcept;
+    [[nodiscard]] bool hides_far(const cloud::CloudMap& map) const noexcept;
     void add_flashes(int row) noexcept;
     void cover(const cloud::ToneLaw& law, float* out) const noexcept;
     [[nodiscard]] glm::vec3 direction_of_node(int node) const noexcept;
@@ -73,6 +73,7 @@ class CloudTile {
     cloud::ToneTile tile_{};
     cloud::ToneRow row_{};
     cloud::Flashes flashes_;
+    float near_share_ = 0.0F;  // of the parts, what ends where near clouds begin
     bool covered_ = false;
     bool steep_ = false;
 };

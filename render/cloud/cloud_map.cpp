@@ -234,7 +234,9 @@ void CloudMap::show_near(CloudMaker& maker, const MapFrame& frame) {
     if (!near_shown_) return;
     Frozen frozen = frozen_at(frame, frame.moment.eye);
     frozen.range = {0.0F, static_cast<float>(kNearRange_m)};
-    near_rays_ = near_.march(maker.freeze(kNearSlot, frame.moment), frame.views, frozen);
+    // All of a tile that is seen is asked for.
+    const double margin_rad = 1.5 * kTile * geometry_.worst_texel_rad();
+    near_rays_ = near_.march(maker.freeze(kNearSlot, frame.moment), frame.views, margin_rad, frozen);
 }
 
 void CloudMap::tell_parts(const MapFrame& frame) noexcept {
