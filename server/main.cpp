@@ -103,6 +103,10 @@ int run(int argc, char** argv) {
         fmt::print(stderr, "{}\n", fault);
         return kWrongUsage;
     }
+    if (const std::string left_out = skyig::server::metar_left_out(*loaded.config, options->config_path);
+        !left_out.empty()) {
+        fmt::print(stderr, "warning: {}\n", left_out);
+    }
     if (options->check) {
         fmt::print("{}\n", skyig::config::describe(*loaded.config));
         return kDone;

@@ -224,6 +224,8 @@ void World::reset() {
 void World::set_start_weather() noexcept {
     air_ = configured_air(start_weather_.air);
     weather_.clear();
+    for (const cigi::EnvRegionControl& region : start_weather_.regions)
+        if (!weather_.set(region)) ++counters_.weather_full;
     for (const cigi::WeatherControl& layer : start_weather_.layers)
         if (!weather_.set(layer)) ++counters_.weather_full;
 }

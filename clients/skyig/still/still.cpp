@@ -53,10 +53,13 @@ void take_weather(const StillOptions& options, config::Config& config) {
     if (!options.metar.empty()) {
         config.weather.preset.clear();
         config.weather.layers.clear();
+        config.weather.areas.clear();
         config.weather.metar = options.metar;
     }
     const std::string source = options.metar.empty() ? options.config_path : "--metar";
     if (const std::string fault = server::metar_fault(config, source); !fault.empty()) fail(fault);
+    if (const std::string left_out = server::metar_left_out(config, source); !left_out.empty())
+        fmt::print(stderr, "warning: {}\n", left_out);
 }
 
 config::Config still_config(const StillOptions& options) {

@@ -33,6 +33,9 @@ void add_still(CLI::App& verb, StillOptions& options) {
                                           "ready-made weather (cavok, few ... cat3b), or a file of such")
                               ->type_name("PRESET");
     verb.add_option("--metar", options.metar, "a weather report, in quotes")
+        ->check(CLI::Validator(
+            [](std::string& text) { return text.empty() ? "is empty; it must be a weather report" : ""; },
+            {}))
         ->type_name("TEXT")
         ->excludes(preset);
     verb.add_option("--elevation", options.elevation_m,
