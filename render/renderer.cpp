@@ -262,6 +262,14 @@ void Renderer::draw_clouds(Clouds clouds) {
     impl_->frame.draw_clouds(std::move(clouds));
 }
 
+const eye::Adaptation& Renderer::adaptation() const noexcept {
+    return impl_->frame.adaptation();
+}
+
+void Renderer::adapt_as(const eye::Adaptation& eyes) noexcept {
+    impl_->frame.adapt_as(eyes);
+}
+
 const FrameReport& Renderer::prepare(const Scene& scene) {
     Impl& m = *impl_;
     m.scene = scene;

@@ -13,6 +13,7 @@
 #include "render/clouds.h"
 #include "render/deferred.h"
 #include "render/display.h"
+#include "render/eye/adaptation.h"
 #include "render/plan.h"
 #include "render/scene.h"
 #include "render/target.h"
@@ -48,6 +49,11 @@ class Renderer {
 
     /// From the next frame on the scene's weather has clouds.
     void draw_clouds(Clouds clouds);
+
+    /// The eyes' state after the last frame; what a renderer made after a reset of the device goes on from.
+    [[nodiscard]] const eye::Adaptation& adaptation() const noexcept;
+    /// Before the first prepare(): its frame is adapted as if `eyes` had seen the frames before.
+    void adapt_as(const eye::Adaptation& eyes) noexcept;
 
     /// All work that the channels share. Channels beyond `scene.view_count` and those whose frustum has no
     /// area keep their last picture (black at first). Allocates nothing in steady state. The first call

@@ -118,6 +118,7 @@ void FrameLoop::answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns) {
 
 void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::FrameParts& times) {
     parts_.painter.prepare(scene);
+    tell_resets();
     times.shared_ns = stopwatch.lap_ns();
     times_.shared().add(times.shared_ns);
     for (std::size_t channel = 0; channel < config_.channels.size(); ++channel) {
@@ -126,6 +127,12 @@ void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::F
         times_.channel(channel).add(took_ns);
         times.channels_ns += took_ns;
     }
+}
+
+void FrameLoop::tell_resets() {
+    if (parts_.painter.resets() == told_resets_) return;
+    told_resets_ = parts_.painter.resets();
+    parts_.log.warning("the graphics device was reset: everything is made anew on it");
 }
 
 void FrameLoop::hash_images() {

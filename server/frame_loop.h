@@ -79,6 +79,7 @@ class FrameLoop {
     void answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns);
     void draw(const render::Scene& scene, Stopwatch& stopwatch, status::FrameParts& times);
     void hand_out_images();
+    void tell_resets();
     void hash_images();
     void watch(const FramePacer::Slot& slot);
     void tell_late_frames();
@@ -119,6 +120,7 @@ class FrameLoop {
     Watched watched_;
     std::vector<std::byte> read_back_;
     /// What has been said of the date, until it is said anew.
+    std::uint64_t told_resets_ = 0;
     bool told_clamped_ = false;
     bool told_leap_seconds_ = false;
     protocol::transport::UdpCounters told_wire_;

@@ -79,6 +79,7 @@ void FrameLoop::take_stock(status::Snapshot& snapshot) const {
     snapshot.start_of_frame_sent = start_of_frame_sent_;
     snapshot.start_of_frame_failed = start_of_frame_failed_;
     snapshot.gl_errors = parts_.painter.gl_errors();
+    snapshot.gl_resets = parts_.painter.resets();
     if (parts_.images != nullptr) {
         const ImageWriter::Counts images = parts_.images->counts();
         snapshot.images_written = images.written;

@@ -31,6 +31,8 @@ class Painter {
 
     /// GL errors since start-up, as of the last prepare().
     [[nodiscard]] virtual std::uint64_t gl_errors() const = 0;
+    /// How often the graphics device was lost and all was made anew on it.
+    [[nodiscard]] virtual std::uint64_t resets() const { return 0; }
     /// One luminance that all channels of the last frame are adapted to, cd/m2.
     [[nodiscard]] virtual double adaptation_cd_m2() const = 0;
     /// The plan of the last frame into `rows`, as many as there is room for. \return how many

@@ -63,6 +63,8 @@ void add_frames(MetricsText& out, const Account& account) {
     for (std::size_t i = 0; i < snapshot.pass_count; ++i)
         out.sample({{"pass", snapshot.passes[i].name}}, snapshot.passes[i].needed ? 1.0 : 0.0);
     counter(out, "skyig_gl_errors_total", "OpenGL errors.", snapshot.gl_errors);
+    counter(out, "skyig_gl_resets_total", "Resets of the graphics device, all made anew after each.",
+            snapshot.gl_resets);
 }
 
 void add_messages(MetricsText& out, const Account& account) {

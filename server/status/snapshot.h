@@ -108,6 +108,7 @@ struct Snapshot {
     std::uint64_t images_failed = 0;
     std::uint64_t image_frames_skipped = 0;
     std::uint64_t gl_errors = 0;
+    std::uint64_t gl_resets = 0;
     bool date_clamped = false;
     bool leap_seconds_assumed = false;
 };

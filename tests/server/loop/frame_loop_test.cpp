@@ -41,6 +41,7 @@ class FakePainter final : public Painter {
         std::fill(rgba.begin(), rgba.end(), static_cast<std::byte>(channel + 1));
     }
     std::uint64_t gl_errors() const override { return 0; }
+    std::uint64_t resets() const override { return device_resets; }
     double adaptation_cd_m2() const override { return 100.0; }
     std::size_t passes(std::span<status::PassState> rows) const override {
         rows[0] = {"dome", true, "always"};
@@ -49,6 +50,7 @@ class FakePainter final : public Painter {
     std::string description() const override { return "fake"; }
 
     render::Scene last_scene;
+    std::uint64_t device_resets = 0;
     std::int64_t prepare_ns = 1 * kMs;
     std::int64_t draw_ns = 2 * kMs;
 
@@ -259,6 +261,19 @@ TEST_F(FrameLoopTest, TurnsTheSkyByTheMeasuredEarth) {
     std::printf("half a second of UT1 turns the sky by %.2f arcsec\n", turned_arcsec);
     EXPECT_NEAR(turned_arcsec, 0.5 * 15.04, 1.6);
     EXPECT_GT(turned_arcsec, 4.0);
+}
+
+TEST_F(FrameLoopTest, TellsEachResetOfTheDeviceOnce) {
+    loop();
+    for (int i = 0; i < 3; ++i)
+        loop_->run_frame();
+    EXPECT_TRUE(lines_.empty()) << ::testing::PrintToString(lines_);
+    painter_.device_resets = 1;
+    for (int i = 0; i < 3; ++i)
+        loop_->run_frame();
+    ASSERT_EQ(lines_.size(), 1U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[0], HasSubstr("the graphics device was reset"));
+    EXPECT_EQ(loop_->report().gl_resets, 1U);
 }
 
 TEST_F(FrameLoopTest, StopsWhenAsked) {
