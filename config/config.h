@@ -10,6 +10,7 @@
 #include "config/channel.h"
 #include "config/host.h"
 #include "config/night.h"
+#include "config/overlay.h"
 #include "config/screen.h"
 #include "config/sky.h"
 #include "config/source.h"
@@ -180,6 +181,8 @@ struct Config {
     Display display;
     Quality quality;
     Eye eye;
+    /// Of all channels that have none of their own.
+    Overlay overlay;
     Output output;
     /// At most kMaxWindows; with OutputKind::kWindow one at least.
     std::vector<Window> windows;
