@@ -1,5 +1,5 @@
-// Keeps a channel that cannot be drawn from holding up the others: it is tried again in the next frame, then ever
-// more rarely.
+// Keeps a channel that cannot be drawn from holding up the others: it is tried again in the next frame, then
+// ever more rarely.
 #pragma once
 
 #include <algorithm>

@@ -140,8 +140,8 @@ void FrameLoop::tell_channels() {
         const std::string& name = config_.channels[channel].name;
         if (health.failed) {
             parts_.log.limited({"channel failed", channel}, kRepeatAfter_s, Severity::kWarning,
-                               "channel {} cannot be drawn: {}; it is crossed out in red and tried again", name,
-                               health.reason());
+                               "channel {} cannot be drawn: {}; it is crossed out in red and tried again",
+                               name, health.reason());
         } else {
             parts_.log.limited({"channel drawn", channel}, kRepeatAfter_s, Severity::kNotice,
                                "channel {} is drawn again, after {} failures since the start", name,

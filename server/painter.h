@@ -23,8 +23,8 @@ class Painter {
 
     /// The work that all channels of this frame share. Never throws, allocates nothing in steady state.
     virtual void prepare(const render::Scene& scene) = 0;
-    /// Draws one channel of the prepared frame; its pixels are finished on return. One that cannot be drawn shows
-    /// that it could not, is told of by health(), and leaves the others as they are. Never throws.
+    /// Draws one channel of the prepared frame; its pixels are finished on return. One that cannot be drawn
+    /// shows that it could not, is told of by health(), and leaves the others as they are. Never throws.
     virtual void draw(std::size_t channel) = 0;
     /// The drawn channels go where people see them. \return false once nobody wants to see them any more
     virtual bool present() { return true; }

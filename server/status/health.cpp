@@ -27,7 +27,8 @@ Health health_of(const Facts& facts, const Snapshot& snapshot, std::int64_t now_
     for (std::size_t i = 0; i < facts.channels.size(); ++i) {
         const ChannelHealth& channel = snapshot.health[i];
         if (channel.failed)
-            return {false, fmt::format("channel {} cannot be drawn: {}", facts.channels[i], channel.reason())};
+            return {false,
+                    fmt::format("channel {} cannot be drawn: {}", facts.channels[i], channel.reason())};
     }
     return {true, "ok"};
 }

@@ -44,7 +44,9 @@ class PatternTest : public GlTest {
         scene.views[0].pattern = pattern;
         return scene;
     }
-    Picture draw_pattern(const Look& look, Pattern pattern) { return draw(renderer_, scene_of(look, pattern))[0]; }
+    Picture draw_pattern(const Look& look, Pattern pattern) {
+        return draw(renderer_, scene_of(look, pattern))[0];
+    }
     [[nodiscard]] glm::dvec3 direction(const Scene& scene, double x_px, double y_down_px) const {
         return glm::transpose(scene.views[0].view_from_enu) *
                view_direction(channels_[0], scene.views[0].frustum, x_px, kHeight - y_down_px);
@@ -90,7 +92,8 @@ TEST_F(PatternTest, EdgesOfTheCheckerLieAtWholeFiveDegrees) {
             // Only whole edges: corners of four fields are grey.
             if (here * there >= 0.0 || std::abs(here - there) < 120.0) return;
             const double share = here / (here - there);
-            const glm::dvec3 d = direction(scene, x + 0.5 + share * (next_x - x), y + 0.5 + share * (next_y - y));
+            const glm::dvec3 d =
+                direction(scene, x + 0.5 + share * (next_x - x), y + 0.5 + share * (next_y - y));
             if (!plain_fields(d)) return;
             const double off_deg = off_lines_deg(d);
             largest_deg = std::max(largest_deg, off_deg);
@@ -145,7 +148,8 @@ TEST_F(PatternTest, SeamLinesOfOverlappingChannelsLieInTheSameDirections) {
     const auto code = [&](std::size_t i, const glm::dvec3& d) {
         const glm::dvec2 place = picture_point(channels[i], scene.views[i], d);
         const bool inside = place.x > 20 && place.x < kWidth - 20 && place.y > 20 && place.y < kHeight - 60;
-        const Rgb rgb = inside ? pictures[i].at(static_cast<int>(place.x), static_cast<int>(place.y)) : Rgb{-1, -1, -1};
+        const Rgb rgb =
+            inside ? pictures[i].at(static_cast<int>(place.x), static_cast<int>(place.y)) : Rgb{-1, -1, -1};
         return std::max({rgb.r, rgb.g, rgb.b});
     };
     int on_lines = 0;
@@ -230,14 +234,16 @@ TEST_F(PatternTest, HalftonesOfTheRampGiveTheLightOfItsCodes) {
             largest = std::max(largest, std::abs(solid - halftone));
             EXPECT_NEAR(picture.at(left, kHeight - 1 - kHeight / 6).r, 255.0 * step / 16.0, 1.0);
         }
-        std::printf("%s: solid codes and halftones differ by %.4f of white at most\n", srgb ? "sRGB" : "2.5", largest);
+        std::printf("%s: solid codes and halftones differ by %.4f of white at most\n", srgb ? "sRGB" : "2.5",
+                    largest);
         // Half a code at white.
         EXPECT_LE(largest, 0.5 * 2.5 / 255.0);
     }
 }
 
 TEST_F(PatternTest, FlatPatternsAreFlatAndCarryNoText) {
-    for (const auto& [pattern, code] : {std::pair{Pattern::kWhite, 255}, {Pattern::kBlack, 0}, {Pattern::kGrey, 188}}) {
+    for (const auto& [pattern, code] :
+         {std::pair{Pattern::kWhite, 255}, {Pattern::kBlack, 0}, {Pattern::kGrey, 188}}) {
         const Picture picture = draw_pattern(looks()[0], pattern);
         for (int y = 0; y < kHeight; ++y) {
             for (int x = 0; x < kWidth; ++x)

@@ -43,8 +43,8 @@ TEST_F(ShowingTest, MirroredPicturesAreThePlainOnesTurnedOver) {
                 draw(renderer, scene_of(night, {.mirrored_across = across, .mirrored_upright = upright}))[0];
             for (int y = 0; y < kHeight; ++y) {
                 for (int x = 0; x < kWidth; ++x)
-                    ASSERT_TRUE(same(mirrored.at(x, y), plain.at(across ? kWidth - 1 - x : x,
-                                                                 upright ? kHeight - 1 - y : y)))
+                    ASSERT_TRUE(same(mirrored.at(x, y),
+                                     plain.at(across ? kWidth - 1 - x : x, upright ? kHeight - 1 - y : y)))
                         << night << across << upright << ' ' << x << ' ' << y;
             }
         }
@@ -104,7 +104,8 @@ TEST_F(ShowingTest, TextIsInkedAsItsFontAndNoBrighterThanTheNightAllows) {
         const Picture without = draw(renderer, scene)[0];
         scene.views[0].overlay = 0b001;
         const Picture with = draw(renderer, scene)[0];
-        const int text = static_cast<int>(std::lround(255.0 * text_code(renderer.prepare(scene).adaptation_cd_m2)));
+        const int text =
+            static_cast<int>(std::lround(255.0 * text_code(renderer.prepare(scene).adaptation_cd_m2)));
         EXPECT_TRUE(renderer.prepare(scene).plan.needs(Pass::kOverlay));
         EXPECT_LE(text, night ? 65 : 230);
         int inked = 0;
@@ -115,13 +116,16 @@ TEST_F(ShowingTest, TextIsInkedAsItsFontAndNoBrighterThanTheNightAllows) {
                 for (int column = 0; column < kGlyphColumns; ++column) {
                     const int shift = 19 - 5 * (row % 4) - column;
                     const bool ink = (rows[static_cast<std::size_t>(row / 4)] >> shift & 1U) != 0;
-                    const int x = kScale * (kGlyphStep + i * kGlyphStep + column), y = kScale * (kGlyphStep + row);
+                    const int x = kScale * (kGlyphStep + i * kGlyphStep + column),
+                              y = kScale * (kGlyphStep + row);
                     for (const int sub : {0, 1}) {
                         const Rgb rgb = with.at(x + sub, y + sub);
                         if (ink) {
-                            ASSERT_LE(difference(rgb, {text, text, text}), 1) << i << ' ' << row << ' ' << column;
+                            ASSERT_LE(difference(rgb, {text, text, text}), 1)
+                                << i << ' ' << row << ' ' << column;
                         } else {
-                            ASSERT_LE(rgb.g, without.at(x + sub, y + sub).g) << i << ' ' << row << ' ' << column;
+                            ASSERT_LE(rgb.g, without.at(x + sub, y + sub).g)
+                                << i << ' ' << row << ' ' << column;
                         }
                     }
                     inked += ink ? 1 : 0;

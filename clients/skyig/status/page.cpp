@@ -179,7 +179,8 @@ void add_counts(Page& page, const Json& now, Before before) {
                   recorder.at("failed").get<bool>() ? "; WRITING FAILED" : "");
     }
     if (now.at("gl_errors") != 0) page.line("GL errors", "{}", now.at("gl_errors").get<std::uint64_t>());
-    if (now.value("gl_resets", 0U) != 0) page.line("GL resets", "{}", now.at("gl_resets").get<std::uint64_t>());
+    if (now.value("gl_resets", 0U) != 0)
+        page.line("GL resets", "{}", now.at("gl_resets").get<std::uint64_t>());
 }
 
 }  // namespace
