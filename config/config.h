@@ -221,6 +221,9 @@ struct LoadResult {
 /// Everything at its default and one channel "centre", 1280x1024, 60 degrees wide.
 [[nodiscard]] Config default_config();
 
+/// All channels start with this one of kPatternNames; another name changes nothing.
+void show_pattern(Config& config, std::string_view pattern) noexcept;
+
 /// "site.toml:12:9: display.gamma: ..."
 [[nodiscard]] std::string to_text(const ConfigError& error);
 

@@ -337,17 +337,19 @@ void Renderer::Impl::draw_wet(std::size_t channel, const DeferredInput& input) {
     wet->draw(pictures.drawn(channel), pictures.view(channel), tone32(channel), input);
 }
 
-bool Renderer::draw(std::size_t channel) {
+void Renderer::draw(std::size_t channel) {
     Impl& m = *impl_;
-    if (!m.shows(channel)) return true;
-    const std::uint64_t errors_before = m.log.errors();
+    if (!m.shows(channel)) return;
     m.pictures.begin(channel);
     if (m.shows_pattern(channel))
         m.draw_pattern(channel);
     else
         m.draw_world(channel);
     m.finish(channel);
-    return m.log.errors() == errors_before;
+}
+
+std::uint64_t Renderer::gl_errors() {
+    return impl_->log.errors();
 }
 
 void Renderer::cross_out(std::size_t channel) {

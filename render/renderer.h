@@ -63,11 +63,13 @@ class Renderer {
     /// Draws one channel of the prepared frame, or the test pattern that its view asks for, with its texts;
     /// returns when the pixels are finished. Patterns and texts are for displays: targets of luminance show
     /// none.
-    /// \return false when GL reported an error meanwhile: the picture cannot be trusted
     /// \throws std::runtime_error, std::bad_alloc when what a view needs for the first time cannot be made:
     /// its picture if that failed in the constructor, a mirrored view's canvas, the pass of patterns or
     /// texts. All else of the renderer stays good, and the next call tries again.
-    bool draw(std::size_t channel);
+    void draw(std::size_t channel);
+
+    /// As in the report, and of what was drawn since: errors in a channel's draw() are those of its picture.
+    [[nodiscard]] std::uint64_t gl_errors();
 
     /// Makes a channel's picture the one that says that it could not be drawn: a red cross. Needs no program
     /// and nothing of the frame.

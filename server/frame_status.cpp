@@ -75,6 +75,8 @@ void FrameLoop::take_stock(status::Snapshot& snapshot) const {
     snapshot.frame = times_of(times_.frame());
     for (std::size_t i = 0; i < config_.channels.size(); ++i)
         snapshot.channels[i] = times_of(times_.channel(i));
+    for (std::size_t i = 0; i < config_.channels.size(); ++i)
+        snapshot.health[i] = parts_.painter.health(i);
     snapshot.pass_count = parts_.painter.passes(snapshot.passes);
     snapshot.start_of_frame_sent = start_of_frame_sent_;
     snapshot.start_of_frame_failed = start_of_frame_failed_;

@@ -5,10 +5,14 @@
 #include <utility>
 
 #include "render/clouds.h"
+#include "render/gl/debug_log.h"
 
 namespace skyig::server {
 
-GlPainter::GlPainter(GlSeatSettings settings) : settings_(std::move(settings)) {
+GlPainter::GlPainter(GlSeatSettings settings)
+    : settings_(std::move(settings)),
+      guards_(settings_.channels.size()),
+      errors_to_make_(settings_.channels.size()) {
     sit_down();
 }
 
@@ -58,7 +62,27 @@ void GlPainter::prepare_seat(const render::Scene& scene) {
 }
 
 void GlPainter::draw(std::size_t channel) {
-    if (seat_) seat_->renderer().draw(channel);
+    if (!seat_ || !guards_[channel].try_now()) return;
+    try {
+        try_to_draw(channel);
+    } catch (const std::exception& error) {
+        guards_[channel].failed(error.what());
+    }
+    if (guards_[channel].health().failed) seat_->renderer().cross_out(channel);
+}
+
+void GlPainter::try_to_draw(std::size_t channel) {
+    render::Renderer& renderer = seat_->renderer();
+    const std::uint64_t errors_before = renderer.gl_errors();
+    if (errors_to_make_[channel] > 0) {
+        --errors_to_make_[channel];
+        render::gl::inject_error();
+    }
+    renderer.draw(channel);
+    if (renderer.gl_errors() == errors_before)
+        guards_[channel].drawn();
+    else
+        guards_[channel].failed("OpenGL reported an error");
 }
 
 bool GlPainter::present() {

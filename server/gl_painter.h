@@ -6,7 +6,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "server/channel_guard.h"
 #include "server/gl_seat.h"
 #include "server/painter.h"
 
@@ -35,8 +37,14 @@ class GlPainter final : public Painter {
     [[nodiscard]] std::size_t passes(std::span<status::PassState> rows) const override;
     [[nodiscard]] std::string description() const override { return description_; }
 
+    [[nodiscard]] status::ChannelHealth health(std::size_t channel) const override {
+        return guards_[channel].health();
+    }
+
     /// As if the device had been reset before the next frame.
     void inject_reset() noexcept;
+    /// OpenGL will report an error in the channel's next `count` draws.
+    void inject_errors(std::size_t channel, int count) noexcept { errors_to_make_[channel] = count; }
 
     static constexpr int kRetryFrames = 60;
 
@@ -44,6 +52,7 @@ class GlPainter final : public Painter {
     void sit_down();
     void prepare_seat(const render::Scene& scene);
     void leave_lost_device() noexcept;
+    void try_to_draw(std::size_t channel);
 
     GlSeatSettings settings_;
     std::unique_ptr<GlSeat> seat_;  // none while the device cannot be had
@@ -52,6 +61,8 @@ class GlPainter final : public Painter {
     /// What eyes were adapted to when the device was lost.
     std::optional<render::eye::Adaptation> eyes_;
     int frames_to_retry_ = 0;
+    std::vector<ChannelGuard> guards_;
+    std::vector<int> errors_to_make_;
     bool clouds_wanted_ = false;
     bool draws_clouds_ = false;
     std::uint64_t errors_ = 0;

@@ -60,13 +60,13 @@ double OverlayText::frames_a_second() const noexcept {
 void OverlayText::write(const world::World& world, std::uint64_t slots, render::Scene& scene) noexcept {
     if (empty_) return;
     slots_[frames_++ % kFrames] = slots;
-    late_frames_ += slots > 1 ? 1 : 0;
+    left_out_ += slots - std::min<std::uint64_t>(slots, 1);
     auto& lines = scene.overlay.lines;
     const ephemeris::CivilTime utc = world.clock().utc().civil();
     say(lines[kMode], "{} {:04}-{:02}-{:02} {:02}:{:02}:{:02}Z{}", protocol::cigi::mode_name(world.mode()),
         utc.year, utc.month, utc.day, utc.hour, utc.minute, static_cast<int>(utc.second),
         world.clock().running() ? "" : " frozen");
-    say(lines[kRate], "{:.1f} Hz, {} late", frames_a_second(), late_frames_);
+    say(lines[kRate], "{:.1f} Hz of {:g}, {} left out", frames_a_second(), rate_hz_, left_out_);
     const world::Link link = world.control_link();
     say_host(lines[kHost], link);
     if (link.state == world::LinkState::kLost) scene.overlay.warning.say("HOST LOST");

@@ -17,8 +17,6 @@ class OverlayText {
   public:
     explicit OverlayText(const config::Config& config);
 
-    /// No channel shows any.
-    [[nodiscard]] bool empty() const noexcept { return empty_; }
     /// Writes the lines and which of them each view shows. \param slots  periods since the frame before
     void write(const world::World& world, std::uint64_t slots, render::Scene& scene) noexcept;
 
@@ -32,7 +30,7 @@ class OverlayText {
     static constexpr std::size_t kFrames = 64;
     std::array<std::uint64_t, kFrames> slots_{};
     std::uint64_t frames_ = 0;
-    std::uint64_t late_frames_ = 0;
+    std::uint64_t left_out_ = 0;
 };
 
 }  // namespace skyig::server
