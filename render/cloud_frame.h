@@ -12,9 +12,9 @@
 #include "render/cloud/cloud_map.h"
 #include "render/cloud/lightning.h"
 #include "render/cloud/tile_tone.h"
+#include "render/cloud_tile.h"
 #include "render/deferred.h"
 #include "render/eye/adaptation.h"
-#include "render/ground_shadow.h"
 #include "render/shaders/shared.h"
 #include "render/sky_light.h"
 
@@ -32,9 +32,6 @@ class CloudFrame {
   public:
     /// Of the tiles whose sky has changed, what a frame looks up.
     static constexpr std::size_t kBackdropsAFrame = 16;
-    /// Floats of what things of another renderer ask of a tile: the clouds' light with the air between and
-    /// the transmittance of all, then over their distance, then the transmittance of near ones.
-    static constexpr std::size_t kThingFloats = std::size_t{cloud::kTileTexels} * 6;
     /// Floats of a toned tile: colour and factor, row by row. \see cloud::ToneKernel
     static constexpr std::size_t kTileFloats = std::size_t{cloud::kTileTexels} * 4;
 
@@ -59,9 +56,10 @@ class CloudFrame {
     /// The same for all screens.
     [[nodiscard]] std::span<const TonedTile> toned() const noexcept { return toned_; }
     [[nodiscard]] std::span<const float> texels(std::size_t screen) const noexcept { return texels_[screen]; }
-    /// kThingFloats of a toned tile that shows clouds, once serve_things() was called.
+    /// CloudTile::kThingFloats of a toned tile that shows clouds, once serve_things() was called.
     [[nodiscard]] std::span<const float> things(const TonedTile& toned) const noexcept {
-        return std::span{things_}.subspan(toned.first / kTileFloats * kThingFloats, kThingFloats);
+        return std::span{things_}.subspan(toned.first / kTileFloats * CloudTile::kThingFloats,
+                                          CloudTile::kThingFloats);
     }
     /// Rises when the map has got another size: all of it is clear until told otherwise.
     [[nodiscard]] std::uint64_t size_revision() const noexcept { return size_revision_; }
@@ -85,21 +83,6 @@ class CloudFrame {
                                     std::size_t probe) const noexcept;
 
   private:
-    static constexpr int kNodes = 5;  // on a tile's side, its neighbours' first with them
-    static constexpr std::size_t kNodeCount = std::size_t{kNodes} * kNodes;
-    /// What stands behind a tile and between, at its nodes.
-    struct Backdrop {
-        glm::vec3 sky[kNodeCount];
-        glm::vec3 ground[kNodeCount];
-        glm::vec3 extinction[kNodeCount];
-        glm::vec3 convergence[kNodeCount];
-        /// What the beam that casts shadows adds to the ground.
-        glm::vec3 sunlit[kNodeCount];
-        /// Both stand behind it.
-        bool horizon = false;
-        /// Light changes so much between nodes that its codes do not go straight.
-        bool steep = false;
-    };
     /// What a tile of the texture was made from.
     struct Made {
         std::uint64_t light = 0;  // 0: no backdrop
@@ -116,36 +99,30 @@ class CloudFrame {
                                       const glm::dvec3& behind_cd_m2,
                                       const glm::dvec3& direction_enu) const noexcept;
     void refresh_backdrops(const SkyLight& light, const DeferredAir& air, std::uint64_t revision);
-    void look_up(int tile, const SkyLight& light, const DeferredAir& air) noexcept;
-    void tell_things(const cloud::ToneRow& row, int y, std::size_t first) noexcept;
-    void tone_tile(int tile, const SkyLight& light, std::size_t first) noexcept;
-    struct Nodes;
-    void fill_nodes(int tile, Nodes& nodes) const noexcept;
-    void gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRow& out) const noexcept;
-    struct Behind;
-    /// How far the nearest ground of a tile is that shadows are told of; 0: there is none.
-    [[nodiscard]] double shaded_from_m(int tile) const noexcept;
-    void gather_clear(cloud::ToneRow& out) const noexcept;
-    void shade_row(int tile, int row, const Backdrop& backdrop, cloud::ToneRow& out) const noexcept;
-    void show_behind(const Backdrop& backdrop, Behind& behind) const noexcept;
-    void find_flashes(int tile) noexcept;
-    void add_flashes(int tile, int row, cloud::ToneRow& out) const noexcept;
+    void refresh_tile(int tile, const SkyLight& light, std::uint64_t tone_revision) noexcept;
     [[nodiscard]] bool serves(int tile, std::uint64_t tone_revision) const noexcept;
+
+    [[nodiscard]] double shaded_from_m(int tile) const noexcept {
+        return shadow_ != nullptr ? shadow_->nearest_m(map_.cone(tile)) : 0.0;
+    }
 
     cloud::CloudMap map_;
     const GroundShadow* shadow_ = nullptr;
+    bool serves_things_ = false;
+    std::vector<float> things_;
     bool shown_ = false;
     bool jumped_ = false;
     std::vector<glm::vec3> probes_;
-    std::vector<Backdrop> backdrops_;  // of each tile
+    std::vector<CloudBackdrop> backdrops_;  // of each tile
     std::vector<Made> made_;
+    std::vector<NearNodes> near_made_;  // likewise
+    NearNodes near_;                    // of the tile in hand
+    CloudTile tile_;
     std::vector<cloud::ToneLaw> laws_;
     cloud::Flashes flashes_;
-    cloud::Flashes on_tile_;  // of those, what lights the tile in hand
     std::vector<TonedTile> toned_;
+    std::size_t toned_count_ = 0;  // of those, what has texels
     std::vector<std::vector<float>> texels_;
-    bool serves_things_ = false;
-    std::vector<float> things_;
     std::vector<cloud::Cone> clouded_;
     std::vector<int> clouded_tiles_;
     std::size_t next_backdrop_ = 0;

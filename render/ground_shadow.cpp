@@ -107,6 +107,17 @@ bool GroundShadow::meets(const glm::vec3& direction_enu, float ray_rad, Place& p
     return true;
 }
 
+double GroundShadow::nearest_m(const cloud::Cone& cone) const noexcept {
+    if (!shown_) return 0.0;
+    // Straight down, or towards the edge of the cone that is nearest to that.
+    const double level = std::sqrt(std::max(1.0 - cone.axis.z * cone.axis.z, 0.0));
+    const bool below = -cone.axis.z > cone.cosine;
+    const double sine = below ? 1.0 : std::clamp(level * cone.sine - cone.axis.z * cone.cosine, -1.0, 1.0);
+    Place place;
+    const glm::dvec3 steepest{std::sqrt(1.0 - sine * sine), 0.0, -sine};
+    return meets(glm::vec3{steepest}, 0.0F, place) ? static_cast<double>(place.distance_m) : 0.0;
+}
+
 glm::dvec3 GroundShadow::seen_sunlit_cd_m2(const DeferredAir& air,
                                            const glm::dvec3& direction_enu) const noexcept {
     Place place;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "render/cloud/map_geometry.h"
 #include "render/cloud/shadow_map.h"
 #include "render/deferred.h"
 #include "render/sky/air_tables.h"
@@ -44,6 +45,8 @@ class GroundShadow {
     };
     /// False: nowhere that shadows are told of. \param direction_enu  any length \param ray_rad  its angle
     [[nodiscard]] bool meets(const glm::vec3& direction_enu, float ray_rad, Place& place) const noexcept;
+    /// How far the nearest ground in a cone of directions is that shadows are told of; 0: there is none.
+    [[nodiscard]] double nearest_m(const cloud::Cone& cone) const noexcept;
     /// Part of the beam that comes there over the mean, -1..1.
     [[nodiscard]] float over_mean(const Place& place) const noexcept {
         return map_.along(place.at_m, place.half_m) - map_.mean();
