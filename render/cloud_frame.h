@@ -77,6 +77,7 @@ class CloudFrame {
         std::uint64_t tone = 0;
         bool clouded = false;
         bool flashed = false;
+        float step = 0.0F;                     // CloudTile::tone()
         std::array<glm::vec3, 2> offsets_m{};  // of the map's parts
     };
     void resize();

@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 #include "render/cloud/cloud_map.h"
 #include "render/cloud/lightning.h"
@@ -58,8 +59,9 @@ class CloudTile {
     void take(const cloud::CloudMap& map, int tile, const CloudBackdrop& backdrop, const NearNodes& near,
               const SkyLight& light, const cloud::Flashes& flashes) noexcept;
     /// \param laws  of each screen \param out  of each screen; the tile's floats begin at first
-    void tone(std::span<const cloud::ToneLaw> laws, std::span<std::vector<float>> out,
-              std::size_t first) noexcept;
+    /// \return largest step of a code or a factor from texel to texel, 0..1
+    float tone(std::span<const cloud::ToneLaw> laws, std::span<std::vector<float>> out,
+               std::size_t first) noexcept;
 
   private:
     void take_parts(const cloud::CloudMap& map) noexcept;
@@ -67,6 +69,7 @@ class CloudTile {
     [[nodiscard]] bool hides_far(const cloud::CloudMap& map) const noexcept;
     void add_flashes(int row) noexcept;
     void cover(const cloud::ToneLaw& law, float* out) const noexcept;
+    void tell_codes(const cloud::ToneLaw& law) noexcept;
     [[nodiscard]] glm::vec3 direction_of_node(int node) const noexcept;
 
     cloud::MapGeometry geometry_;
