@@ -41,6 +41,19 @@ bool same_weather(const Weather& a, const Weather& b) noexcept {
            a.lightnings == b.lightnings;
 }
 
+/// Whether clouds come, go or grow, other than by drift, age and their place.
+bool have_grown(const Weather& before, const Weather& now) noexcept {
+    if (before.cloud_count != now.cloud_count) return true;
+    for (std::size_t i = 0; i < now.cloud_count; ++i) {
+        CloudLayer moved = before.clouds[i];
+        moved.drift_m = now.clouds[i].drift_m;
+        moved.age_s = now.clouds[i].age_s;
+        moved.area = now.clouds[i].area;
+        if (moved != now.clouds[i]) return true;
+    }
+    return false;
+}
+
 /// What the eye's displacement is measured against; null: there are no clouds.
 const CloudLayer* measured_layer(const Weather& weather) noexcept {
     return weather.cloud_count > 0 ? &weather.clouds[0] : nullptr;
@@ -148,6 +161,8 @@ Frozen CloudMap::frozen_at(const MapFrame& frame, const Eye& eye) const noexcept
 void CloudMap::begin(CloudMaker& maker, const MapFrame& frame, double frames_ahead) {
     CloudMoment moment = frame.moment;
     moment.eye = led(moment.eye, motion_a_frame_, frames_ahead);
+    next_grows_ = have_grown(frozen_weather_, frame.moment.scene.weather);
+    march_frames_ = 0;
     frozen_eye_ = frame.moment.eye;
     frozen_weather_ = frame.moment.scene.weather;
     frozen_light_ = frame.moment.light;
@@ -184,8 +199,22 @@ void CloudMap::march_all(CloudMaker& maker, const MapFrame& frame) {
     rays_ += static_cast<int>(tiles_.size()) * kTileTexels;
     marching_ = false;
     std::swap(new_, next_);
-    blend_ = kBlendFrames;
+    blend_ = blend_frames_;
     shown_ = true;
+    ++revision_;
+}
+
+// The finished one takes over from now on.
+void CloudMap::take_over() noexcept {
+    const std::size_t free = old_;
+    old_ = new_;
+    new_ = next_;
+    next_ = free;
+    blend_ = 1;
+    grows_ = next_grows_;
+    blend_frames_ = grows_ ? std::max(kGrowthFrames, march_frames_) : kBlendFrames;
+    period_frames_ = static_cast<double>(frames_since_begin_);
+    marching_ = false;
     ++revision_;
 }
 
@@ -193,24 +222,16 @@ void CloudMap::advance(CloudMaker& maker, const MapFrame& frame, int tiles_a_fra
     worker_.wait();
     maker.follow(frame.moment, static_cast<float>(geometry_.worst_texel_rad()), false);
     tiles_done_ = tiles_asked_;
-    if (blend_ < kBlendFrames) {
+    if (blend_ < blend_frames_) {
         ++blend_;
         ++revision_;
     }
-    if (marching_ && tiles_done_ == tiles_.size() && blend_ >= kBlendFrames) {
-        // The finished one takes over from now on.
-        const std::size_t free = old_;
-        old_ = new_;
-        new_ = next_;
-        next_ = free;
-        blend_ = 1;
-        period_frames_ = static_cast<double>(frames_since_begin_);
-        marching_ = false;
-        ++revision_;
-    }
+    const bool done = marching_ && tiles_done_ == tiles_.size();
+    if (done && march_frames_ == 0) march_frames_ = static_cast<int>(frames_since_begin_);
+    if (done && blend_ >= blend_frames_) take_over();
     if (!marching_ && !stands_still(frame)) {
-        // Its life begins when it is done and ends when the one after it has taken over.
-        begin(maker, frame, 1.5 * period_frames_);
+        // Its life begins when it is done and ends when the one after it has taken over: the middle of both.
+        begin(maker, frame, (grows_ ? 2.0 : 1.5) * period_frames_);
     }
     if (!marching_ || tiles_asked_ == tiles_.size()) return;
     const auto count = std::min(static_cast<std::size_t>(tiles_a_frame), tiles_.size() - tiles_asked_);
@@ -225,7 +246,7 @@ void CloudMap::fill_in() {
     bool any = false;
     for (const int tile : seen_) {
         for (const std::size_t part : {old_, new_}) {
-            const bool shows = part == new_ || blend_ < kBlendFrames;
+            const bool shows = part == new_ || blend_ < blend_frames_;
             if (!shows || snapshots_[part].tile(tile) != Snapshot::Tile::kUnknown) continue;
             snapshots_[part].march(*sources_[part], tile);
             rays_ += kTileTexels;
@@ -263,9 +284,9 @@ void CloudMap::tell_parts(const MapFrame& frame) noexcept {
             eye_offset_m(frozen.eye, frame.moment.eye) - glm::dvec3{drifted_m_[index], 0.0};
         parts_[part_count_++] = {&snapshots_[index], weight, glm::vec3{offset_m}, frozen.range.from_m > 0.0F};
     };
-    const auto share = static_cast<float>(blend_) / static_cast<float>(kBlendFrames);
-    const float smooth = share * share * (3.0F - 2.0F * share);
-    if (blend_ < kBlendFrames) add(old_, 1.0F - smooth);
+    const auto share = static_cast<float>(blend_) / static_cast<float>(blend_frames_);
+    const float smooth = grows_ ? share : share * share * (3.0F - 2.0F * share);
+    if (blend_ < blend_frames_) add(old_, 1.0F - smooth);
     add(new_, smooth);
 }
 
@@ -289,7 +310,7 @@ void CloudMap::update(CloudMaker& maker, const MapFrame& frame, int size, int ti
 }
 
 bool CloudMap::is_clear() const noexcept {
-    return blend_ >= kBlendFrames && !marching_ &&
+    return blend_ >= blend_frames_ && !marching_ &&
            std::none_of(seen_.begin(), seen_.end(), [this](int tile) { return may_show(tile); });
 }
 
