@@ -10,6 +10,7 @@
 #include "config/channel.h"
 #include "config/host.h"
 #include "config/night.h"
+#include "config/pacing.h"
 #include "config/screen.h"
 #include "config/sky.h"
 #include "config/source.h"
@@ -28,11 +29,6 @@ struct UtcDateTime {
     double second = 0.0;
 
     friend bool operator==(const UtcDateTime&, const UtcDateTime&) = default;
-};
-
-struct Daemon {
-    /// Frames a second, 1..240.
-    double rate_hz = 60.0;
 };
 
 /// The world at start-up, and again each time the host puts the image generator into Standby.
@@ -167,6 +163,7 @@ struct Preview {
 
 struct Config {
     Daemon daemon;
+    Overload overload;
     Host host;
     /// At most kMaxSources.
     std::vector<Source> sources;

@@ -417,7 +417,7 @@ bool CloudFrame::serves(int tile, std::uint64_t tone_revision) const noexcept {
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const glm::vec3 moved_m = parts[k].offset_m - made.offsets_m[k];
         const float aside_m = glm::length(glm::cross(axis, moved_m));
-        if (aside_m * parts[k].snapshot->nearest_inverse(tile) > kStep_rad) return false;
+        if (aside_m * parts[k].snapshot->nearest_inverse(tile) > steps_ * kStep_rad) return false;
     }
     return true;
 }

@@ -41,6 +41,9 @@ class CloudFrame {
     /// The frame's clouds in linear light; from then on seen_through() and its like may be asked.
     void follow(cloud::CloudMaker& maker, const Scene& scene, const cloud::CloudLight& on_clouds,
                 const SkyLight& light, bool jumped, int size, int tiles_a_frame);
+    /// By how many steps at once what is toned follows the eye, at least 1: a step is a quarter of a fine
+    /// pixel.
+    void step_by(float steps) noexcept { steps_ = steps; }
     /// Tones what has changed. \param tones  one for each screen \param light_revision  rises when the light
     /// has changed by what may show \param tone_revision  likewise \param flashes  that light the clouds
     void tone(const SkyLight& light, const DeferredAir& air, std::span<const shaders64::ToneParameters> tones,
@@ -121,6 +124,7 @@ class CloudFrame {
     std::vector<cloud::Cone> clouded_;
     std::vector<int> clouded_tiles_;
     std::size_t next_backdrop_ = 0;
+    float steps_ = 1.0F;
     std::uint64_t size_revision_ = 0;
 };
 

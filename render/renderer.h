@@ -48,6 +48,9 @@ class Renderer {
     /// From the next frame on the scene's weather has clouds.
     void draw_clouds(Clouds clouds);
 
+    /// What frames leave out from the next one on. \see render::thinnable()
+    void thin(Thinned thinned) noexcept;
+
     /// All work that the channels share. Channels beyond `scene.view_count` and those whose frustum has no
     /// area keep their last picture (black at first). Allocates nothing in steady state. The first call
     /// builds all tables and may throw std::bad_alloc; later ones do not throw.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "render/clouds.h"
+#include "render/gl/objects.h"
 
 namespace skyig::server {
 
@@ -32,6 +33,9 @@ void GlPainter::prepare(const render::Scene& scene) {
     if (scene.weather.cloud_count > 0) draw_clouds();
     const render::FrameReport& report = renderer_.prepare(scene);
     passes_ = report.plan.passes;
+    thinnable_ = render::thinnable(report.plan);
+    rebuilt_ = report.plan.needs(render::Pass::kAirTables) || report.plan.needs(render::Pass::kSunSky) ||
+               report.plan.needs(render::Pass::kMoonSky);
     gl_errors_ = report.gl_errors;
     adaptation_cd_m2_ = report.adaptation_cd_m2;
 }
@@ -54,6 +58,16 @@ void GlPainter::read_luminance(std::size_t channel, std::span<float> rgb_cd_m2) 
 
 std::string GlPainter::description() const {
     return desktop_ ? desktop_->description() : headless_->description();
+}
+
+// Mesa names both of its software rasterisers.
+bool GlPainter::on_processor() const {
+    const std::string text = description();
+    return text.find("llvmpipe") != std::string::npos || text.find("softpipe") != std::string::npos;
+}
+
+std::size_t GlPainter::gl_objects() const {
+    return render::gl::count_objects();
 }
 
 std::size_t GlPainter::passes(std::span<status::PassState> rows) const {
