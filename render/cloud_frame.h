@@ -12,6 +12,7 @@
 #include "render/cloud/cloud_map.h"
 #include "render/cloud/lightning.h"
 #include "render/cloud/tile_tone.h"
+#include "render/cloud_tile.h"
 #include "render/deferred.h"
 #include "render/eye/adaptation.h"
 #include "render/shaders/shared.h"
@@ -72,19 +73,6 @@ class CloudFrame {
                                     std::size_t probe) const noexcept;
 
   private:
-    static constexpr int kNodes = 5;  // on a tile's side, its neighbours' first with them
-    static constexpr std::size_t kNodeCount = std::size_t{kNodes} * kNodes;
-    /// What stands behind a tile and between, at its nodes.
-    struct Backdrop {
-        glm::vec3 sky[kNodeCount];
-        glm::vec3 ground[kNodeCount];
-        glm::vec3 extinction[kNodeCount];
-        glm::vec3 convergence[kNodeCount];
-        /// Both stand behind it.
-        bool horizon = false;
-        /// Light changes so much between nodes that its codes do not go straight.
-        bool steep = false;
-    };
     /// What a tile of the texture was made from.
     struct Made {
         std::uint64_t light = 0;  // 0: no backdrop
@@ -99,27 +87,22 @@ class CloudFrame {
                                       const glm::dvec3& behind_cd_m2,
                                       const glm::dvec3& direction_enu) const noexcept;
     void refresh_backdrops(const SkyLight& light, const DeferredAir& air, std::uint64_t revision);
-    void look_up(int tile, const SkyLight& light, const DeferredAir& air) noexcept;
-    void tone_tile(int tile, const SkyLight& light, std::size_t first) noexcept;
-    struct Nodes;
-    void fill_nodes(int tile, Nodes& nodes) const noexcept;
-    void gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRow& out) const noexcept;
-    struct Behind;
-    void show_behind(const Backdrop& backdrop, Behind& behind) const noexcept;
-    void find_flashes(int tile) noexcept;
-    void add_flashes(int tile, int row, cloud::ToneRow& out) const noexcept;
+    void refresh_tile(int tile, const SkyLight& light, std::uint64_t tone_revision) noexcept;
     [[nodiscard]] bool serves(int tile, std::uint64_t tone_revision) const noexcept;
 
     cloud::CloudMap map_;
     bool shown_ = false;
     bool jumped_ = false;
     std::vector<glm::vec3> probes_;
-    std::vector<Backdrop> backdrops_;  // of each tile
+    std::vector<CloudBackdrop> backdrops_;  // of each tile
     std::vector<Made> made_;
+    std::vector<NearNodes> near_made_;  // likewise
+    NearNodes near_;                    // of the tile in hand
+    CloudTile tile_;
     std::vector<cloud::ToneLaw> laws_;
     cloud::Flashes flashes_;
-    cloud::Flashes on_tile_;  // of those, what lights the tile in hand
     std::vector<TonedTile> toned_;
+    std::size_t toned_count_ = 0;  // of those, what has texels
     std::vector<std::vector<float>> texels_;
     std::vector<cloud::Cone> clouded_;
     std::vector<int> clouded_tiles_;

@@ -122,6 +122,8 @@ Cost cost_of(Pass pass) {
         case Pass::kPrecipitation:
         case Pass::kSunGlare:
         case Pass::kMoonGlare:
+        case Pass::kPattern:
+        case Pass::kOverlay:
             break;
     }
     return Cost::kChannel;
@@ -178,13 +180,26 @@ void plan_night(Plan& plan, double sun_rad) {
     put(plan, Pass::kMilkyWay, {false, "not decided yet"});
 }
 
+void plan_over_pictures(Plan& plan, const Scene& scene) {
+    const auto views = scene.channel_views();
+    const bool pattern = std::any_of(views.begin(), views.end(),
+                                     [](const ChannelView& view) { return view.pattern != Pattern::kOff; });
+    put(plan, Pass::kPattern,
+        pattern ? Verdict{true, "a channel shows it in place of the sky"}
+                : Verdict{false, "no channel is asked to show one"});
+    const bool text =
+        std::any_of(views.begin(), views.end(), [](const ChannelView& view) { return view.overlay != 0; });
+    put(plan, Pass::kOverlay,
+        text ? Verdict{true, "a channel shows lines of text"} : Verdict{false, "no channel shows any text"});
+}
+
 }  // namespace
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables",  "sun sky",   "moon sky",   "night sky",     "veil",      "clouds",
-        "near clouds", "dome",      "waves",      "milky way",     "stars",     "corona",
-        "sun disc",    "moon disc", "wet things", "precipitation", "sun glare", "moon glare"};
+        "air tables", "sun sky",       "moon sky",  "night sky",  "veil",    "clouds",   "near clouds",
+        "dome",       "waves",         "milky way", "stars",      "corona",  "sun disc", "moon disc",
+        "wet things", "precipitation", "sun glare", "moon glare", "pattern", "overlay"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -271,6 +286,7 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kPrecipitation, falls);
     for (const Pass pass : {Pass::kSunGlare, Pass::kMoonGlare})
         put(plan, pass, {false, "not decided yet"});
+    plan_over_pictures(plan, scene);
     return plan;
 }
 

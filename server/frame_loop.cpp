@@ -45,6 +45,7 @@ FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, 
       scenes_(ephemeris_model(config), std::move(orientation), sky_settings(config.sky),
               ground_settings(config.ground), night_settings(config.night),
               weather::weather_settings(config.weather)),
+      overlay_(config),
       times_(config.channels.size()),
       lock_step_(config.daemon),
       delays_(config.channels.size()),
@@ -83,7 +84,8 @@ bool FrameLoop::run_frame() {
     const std::int64_t processor_before_ns = parts_.clock.processor_ns();
     Stopwatch stopwatch(parts_.clock, start_ns);
     take_input(slot, times, stopwatch);
-    const render::Scene scene = scenes_.build(parts_.world, frame_number_);
+    render::Scene scene = scenes_.build(parts_.world, frame_number_);
+    overlay_.write(parts_.world, slot.slots, scene);
     times.input_ns += stopwatch.lap_ns();
     times_.input().add(times.input_ns);
     draw(scene, stopwatch, times);
@@ -159,6 +161,7 @@ void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::F
     std::int64_t last_utc_ns = 0;
     parts_.painter.prepare(scene);
     times.rebuilt = parts_.painter.rebuilt();
+    tell_resets();
     times.shared_ns = stopwatch.lap_ns();
     times_.shared().add(times.shared_ns);
     for (std::size_t channel = 0; channel < config_.channels.size(); ++channel) {
@@ -172,6 +175,7 @@ void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::F
         delays_.finished(channel, last_utc_ns, inbox_.frame_arrivals());
     }
     if (live) tell_host_of_pictures(first_utc_ns, last_utc_ns);
+    tell_channels();
 }
 
 /// For whoever measures delays from the other end.
@@ -185,6 +189,30 @@ void FrameLoop::tell_host_of_pictures(std::int64_t first_utc_ns, std::int64_t la
                                                  microseconds(last_utc_ns - message.arrival_ns),
                                                  microseconds(first_utc_ns - message.arrival_ns));
     }
+}
+
+void FrameLoop::tell_channels() {
+    for (std::size_t channel = 0; channel < config_.channels.size(); ++channel) {
+        const status::ChannelHealth health = parts_.painter.health(channel);
+        if (health.failed == told_failed_[channel]) continue;
+        told_failed_[channel] = health.failed;
+        const std::string& name = config_.channels[channel].name;
+        if (health.failed) {
+            parts_.log.limited({"channel failed", channel}, kRepeatAfter_s, Severity::kWarning,
+                               "channel {} cannot be drawn: {}; it is crossed out in red and tried again",
+                               name, health.reason());
+        } else {
+            parts_.log.limited({"channel drawn", channel}, kRepeatAfter_s, Severity::kNotice,
+                               "channel {} is drawn again, after {} failures since the start", name,
+                               health.failures);
+        }
+    }
+}
+
+void FrameLoop::tell_resets() {
+    if (parts_.painter.resets() == told_resets_) return;
+    told_resets_ = parts_.painter.resets();
+    parts_.log.warning("the graphics device was reset: everything is made anew on it");
 }
 
 void FrameLoop::hash_images() {

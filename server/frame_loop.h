@@ -1,6 +1,7 @@
 // One frame after the other: answer the host, take what it has sent, move the world, draw, write pictures.
 #pragma once
 
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -17,6 +18,7 @@
 #include "server/inbox.h"
 #include "server/lock_step.h"
 #include "server/log.h"
+#include "server/overlay_text.h"
 #include "server/overload.h"
 #include "server/pace.h"
 #include "server/painter.h"
@@ -90,6 +92,8 @@ class FrameLoop {
     void tell_host_of_pictures(std::int64_t first_utc_ns, std::int64_t last_utc_ns);
     void close_frame(const FramePacer::Slot& slot, const status::FrameParts& times);
     void tell_thinning(Overload::Step step);
+    void tell_resets();
+    void tell_channels();
     void hash_images();
     void watch(const FramePacer::Slot& slot);
     void tell_late_frames();
@@ -111,6 +115,7 @@ class FrameLoop {
     Answers answers_;
     Inbox inbox_;
     SceneBuilder scenes_;
+    OverlayText overlay_;
     FrameTimes times_;
     status::FrameRecord record_;
     LockStep lock_step_;
@@ -137,7 +142,10 @@ class FrameLoop {
     };
     Watched watched_;
     std::vector<std::byte> read_back_;
+    /// Channels of which it has been said that they cannot be drawn.
+    std::bitset<config::kMaxChannels> told_failed_;
     /// What has been said of the date, until it is said anew.
+    std::uint64_t told_resets_ = 0;
     bool told_clamped_ = false;
     bool told_leap_seconds_ = false;
     protocol::transport::UdpCounters told_wire_;

@@ -5,6 +5,7 @@
 namespace skyig::server {
 
 static_assert(config::kMaxChannels == render::kMaxChannels);
+static_assert(config::kMaxTextScale == render::kMaxTextScale);
 
 ephemeris::UtcClockTime start_time(const config::Start& start, const Clock& clock) {
     constexpr std::int64_t kNsPerSecond = 1'000'000'000;
@@ -40,6 +41,7 @@ std::vector<render::Channel> render_channels(const config::Config& config) {
     for (const config::Channel& channel : config.channels) {
         channels.push_back({channel.name, channel.width_px, channel.height_px});
         if (channel.display) channels.back().screen = screen(*channel.display);
+        channels.back().text_scale = channel.overlay.value_or(config.overlay).scale;
     }
     return channels;
 }

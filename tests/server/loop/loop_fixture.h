@@ -41,13 +41,17 @@ class FakePainter final : public Painter {
         std::fill(rgba.begin(), rgba.end(), static_cast<std::byte>(channel + 1));
     }
     std::uint64_t gl_errors() const override { return 0; }
+    std::uint64_t resets() const override { return device_resets; }
     double adaptation_cd_m2() const override { return 100.0; }
     std::size_t passes(std::span<status::PassState> rows) const override {
         rows[0] = {"dome", true, "always"};
         return 1;
     }
     std::string description() const override { return "fake"; }
+    status::ChannelHealth health(std::size_t /*channel*/) const override { return channel_health; }
 
+    status::ChannelHealth channel_health;
+    std::uint64_t device_resets = 0;
     render::Scene last_scene;
     std::int64_t prepare_ns = 1 * kMs;
     std::int64_t draw_ns = 2 * kMs;
