@@ -139,7 +139,7 @@ TEST_F(FrameLoopTest, NamesAChannelThatCannotBeDrawn) {
 
 TEST_F(FrameLoopTest, OverlayTellsModeRateAndTheHostThatIsLost) {
     config_.overlay = {.mode = true, .rate = true, .host = true, .host_lost = true};
-    config_.host.lost_after_s = 0.5;
+    config_.host.rights.lost_after_s = 0.5;
     loop();
     const render::Scene& scene = painter_.last_scene;
     loop_->run_frame();
