@@ -144,7 +144,7 @@ TEST_F(FrameLoopTest, OverlayTellsModeRateAndTheHostThatIsLost) {
     const render::Scene& scene = painter_.last_scene;
     loop_->run_frame();
     EXPECT_EQ(scene.views[0].overlay, 0b1111);
-    EXPECT_THAT(std::string(scene.overlay.lines[0].text()), HasSubstr("Standby 2026-06-21 12:00:00Z"));
+    EXPECT_THAT(std::string(scene.overlay.lines[0].text()), HasSubstr("standby 2026-06-21 12:00:00Z"));
     EXPECT_EQ(scene.overlay.lines[1].text(), "100.0 Hz of 100, 0 left out");
     EXPECT_EQ(scene.overlay.lines[2].text(), "host waiting");
     EXPECT_TRUE(scene.overlay.warning.text().empty());
