@@ -265,11 +265,24 @@ struct RvrOptions {
     bool json = false;
 };
 
+/// skyig latency: a host that flips an aircraft's attitude.
+struct LatencyOptions {
+    std::string to = "127.0.0.1:8004";
+    std::string listen = "127.0.0.1:8005";
+    double rate_hz = 58.3;
+    /// In each scene.
+    int flips = 200;
+    double settle_s = 3.0;
+    double wait_s = 10.0;
+    std::optional<double> at_most_frames;
+    bool json = false;
+};
+
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
     std::variant<std::monostate, HostOptions, ShotOptions, PlanOptions, ChannelsOptions, BenchOptions,
-                 EphemOptions, CloudOptions, DecodeOptions, MetarOptions, ReplayOptions, RecordOptions,
-                 SkyOptions, StatusOptions, ToneOptions, RvrOptions>
+                 EphemOptions, CloudOptions, LatencyOptions, DecodeOptions, MetarOptions, ReplayOptions,
+                 RecordOptions, SkyOptions, StatusOptions, ToneOptions, RvrOptions>
         options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)
