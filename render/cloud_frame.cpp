@@ -159,7 +159,8 @@ void CloudFrame::refresh_backdrops(const SkyLight& light, const DeferredAir& air
 }
 
 // Whether a tile of the texture still shows what it should: nothing has changed but the eye's place, and that
-// by less than a quarter of a fine pixel.
+// by what moves no code by half a step. The bound is too wide by three: it takes the tile's largest step, its
+// nearest cloud, and texels as narrow as they are anywhere.
 bool CloudFrame::serves(int tile, std::uint64_t tone_revision) const noexcept {
     const Made& made = made_[static_cast<std::size_t>(tile)];
     if (!made.clouded || made.tone != tone_revision || made.map == 0) return false;
@@ -168,13 +169,15 @@ bool CloudFrame::serves(int tile, std::uint64_t tone_revision) const noexcept {
     if (!map_.may_show(tile)) return !made.with_clouds;
     if (made.map != map_.revision() || !still_serves(near_made_[static_cast<std::size_t>(tile)], near_))
         return false;
-    constexpr float kStep_rad = 2.2e-4F;
+    constexpr float kStep = 3.0F * 0.5F / 255.0F;
+    // Texels are 1.41 / size wide where they are narrowest; a way aslant goes over rows and columns.
+    const float steps_a_rad = made.step * static_cast<float>(map_.geometry().size());
     const glm::vec3 axis{map_.cone(tile).axis};
     const auto parts = map_.parts();
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const glm::vec3 moved_m = parts[k].offset_m - made.offsets_m[k];
         const float aside_m = glm::length(glm::cross(axis, moved_m));
-        if (aside_m * parts[k].snapshot->nearest_inverse(tile) > kStep_rad) return false;
+        if (aside_m * parts[k].snapshot->nearest_inverse(tile) * steps_a_rad > steps_ * kStep) return false;
     }
     return true;
 }
@@ -227,7 +230,7 @@ void CloudFrame::refresh_tile(int tile, const SkyLight& light, std::uint64_t ton
     const std::span<float> things =
         serves_things_ ? std::span{things_}.subspan(count * CloudTile::kThingFloats, CloudTile::kThingFloats)
                        : std::span<float>{};
-    tile_.tone(laws_, texels_, first, things);
+    made.step = tile_.tone(laws_, texels_, first, things);
     toned_.push_back({tile, first});
     made.flashed = flashed;
     made.clouded = true;

@@ -320,8 +320,19 @@ void CloudTile::cover(const cloud::ToneLaw& law, float* out) const noexcept {
 
 // One screen's rig has the codes behind at the nodes; where they bend, and for several screens, they are
 // worked out.
-void CloudTile::tone(std::span<const cloud::ToneLaw> laws, std::span<std::vector<float>> out,
-                     std::size_t first, std::span<float> things) noexcept {
+void CloudTile::tell_codes(const cloud::ToneLaw& law) noexcept {
+    for (int c = 0; c < 3; ++c) {
+        copy(tile_.smooth[cloud::kBehind + c], tile_.smooth[cloud::kBehindCode + c]);
+        copy(tile_.ground[c], tile_.ground_code[c]);
+    }
+    float(*codes)[cloud::kNodeFloats] = tile_.smooth + cloud::kBehindCode;
+    cloud::tone_kernel().show(law, codes[0], codes[1], codes[2]);
+    codes = tile_.ground_code;
+    if (tile_.horizon) cloud::tone_kernel().show(law, codes[0], codes[1], codes[2]);
+}
+
+float CloudTile::tone(std::span<const cloud::ToneLaw> laws, std::span<std::vector<float>> out,
+                      std::size_t first, std::span<float> things) noexcept {
     const cloud::ToneKernel& kernel = cloud::tone_kernel();
     tile_.depths = !things.empty();
     if (covered_) {
@@ -332,19 +343,11 @@ void CloudTile::tone(std::span<const cloud::ToneLaw> laws, std::span<std::vector
         }
         for (std::size_t screen = 0; screen < laws.size(); ++screen)
             cover(laws[screen], &out[screen][first]);
-        return;
+        // The eye's way does not move it.
+        return 0.0F;
     }
     tile_.codes = laws.size() == 1 && !steep_;
-    if (tile_.codes) {
-        for (int c = 0; c < 3; ++c) {
-            copy(tile_.smooth[cloud::kBehind + c], tile_.smooth[cloud::kBehindCode + c]);
-            copy(tile_.ground[c], tile_.ground_code[c]);
-        }
-        float(*codes)[cloud::kNodeFloats] = tile_.smooth + cloud::kBehindCode;
-        kernel.show(laws.front(), codes[0], codes[1], codes[2]);
-        codes = tile_.ground_code;
-        if (tile_.horizon) kernel.show(laws.front(), codes[0], codes[1], codes[2]);
-    }
+    if (tile_.codes) tell_codes(laws.front());
     for (int y = 0; y < kToneRow; ++y) {
         gather(y);
         if (tile_.depths) tell_things(y, things);
@@ -352,6 +355,10 @@ void CloudTile::tone(std::span<const cloud::ToneLaw> laws, std::span<std::vector
             kernel.tone(laws[screen], row_, tile_.codes,
                         &out[screen][first + static_cast<std::size_t>(y * kToneRow * 4)]);
     }
+    float largest = 0.0F;
+    for (const std::vector<float>& texels : out)
+        largest = std::max(largest, kernel.largest_step(&texels[first]));
+    return largest;
 }
 
 }  // namespace skyig::render

@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 #include "render/cloud/cloud_map.h"
 #include "render/cloud/lightning.h"
@@ -68,8 +69,9 @@ class CloudTile {
     void shade(const GroundShadow& shadow, const CloudBackdrop& backdrop) noexcept;
     /// \param laws  of each screen \param out  of each screen; the tile's floats begin at first \param things
     /// kThingFloats, or none
-    void tone(std::span<const cloud::ToneLaw> laws, std::span<std::vector<float>> out, std::size_t first,
-              std::span<float> things) noexcept;
+    /// \return largest step of a code or a factor from texel to texel, 0..1
+    float tone(std::span<const cloud::ToneLaw> laws, std::span<std::vector<float>> out, std::size_t first,
+               std::span<float> things) noexcept;
 
   private:
     void take_parts(const cloud::CloudMap& map) noexcept;
@@ -80,6 +82,7 @@ class CloudTile {
     void add_flashes(int row) noexcept;
     void tell_things(int row, std::span<float> things) const noexcept;
     void cover(const cloud::ToneLaw& law, float* out) const noexcept;
+    void tell_codes(const cloud::ToneLaw& law) noexcept;
     [[nodiscard]] glm::vec3 direction_of_node(int node) const noexcept;
 
     cloud::MapGeometry geometry_;

@@ -96,6 +96,9 @@ struct ToneKernel {
     void (*seen)(const ToneRow& row, float* out);
     /// A row, as tone() has it, of what nothing is seen behind. \param codes  red, green, blue at nodes
     void (*cover)(const float (*codes)[kNodeFloats], Fold fold, int row, float* out);
+    /// Largest step of a component from a texel to its neighbours. \param texels  kToneRow rows as tone() has
+    /// them
+    float (*largest_step)(const float* texels);
     /// shown() of linear Rec.709, kNodeFloats of each, in place.
     void (*show)(const ToneLaw& law, float* red, float* green, float* blue);
 };
