@@ -299,12 +299,12 @@ TEST_F(FrameLoopTest, NamesAChannelThatCannotBeDrawn) {
 
 TEST_F(FrameLoopTest, OverlayTellsModeRateAndTheHostThatIsLost) {
     config_.overlay = {.mode = true, .rate = true, .host = true, .host_lost = true};
-    config_.host.lost_after_s = 0.5;
+    config_.host.rights.lost_after_s = 0.5;
     loop();
     const render::Scene& scene = painter_.last_scene;
     loop_->run_frame();
     EXPECT_EQ(scene.views[0].overlay, 0b1111);
-    EXPECT_THAT(std::string(scene.overlay.lines[0].text()), HasSubstr("Standby 2026-06-21 12:00:00Z"));
+    EXPECT_THAT(std::string(scene.overlay.lines[0].text()), HasSubstr("standby 2026-06-21 12:00:00Z"));
     EXPECT_EQ(scene.overlay.lines[1].text(), "100.0 Hz of 100, 0 left out");
     EXPECT_EQ(scene.overlay.lines[2].text(), "host waiting");
     EXPECT_TRUE(scene.overlay.warning.text().empty());
@@ -515,6 +515,7 @@ TEST_F(FrameLoopTest, PublishesASnapshotTenTimesASecond) {
 }
 
 TEST_F(FrameLoopTest, AllocatesNothingInSteadyState) {
+    config_.overlay = {.mode = true, .rate = true, .host = true, .host_lost = true};
     ImageWriter images("out", render_channels(config_), 2,
                        [](const std::string&, const render::Channel&, std::span<const std::byte>,
                           std::string&) { return true; });
