@@ -246,7 +246,7 @@ void Renderer::Impl::prepare_clouds() {
 }
 
 void Renderer::Impl::refresh_deferred() {
-    deferred->prepare(frame.air_between(scene), display.dither);
+    deferred->prepare(frame.air_between(scene), frame.clouds(), frame.ground_shadow(), display.dither);
 }
 
 Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality,
@@ -262,6 +262,10 @@ Renderer::~Renderer() = default;
 
 void Renderer::draw_clouds(Clouds clouds) {
     impl_->frame.draw_clouds(std::move(clouds));
+}
+
+void Renderer::thin(Thinned thinned) noexcept {
+    impl_->frame.thin(thinned);
 }
 
 const eye::Adaptation& Renderer::adaptation() const noexcept {
@@ -289,7 +293,8 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
         m.report.stars_drawn = m.stars.count();
     }
     if (m.frame.plan().needs(Pass::kPrecipitation))
-        m.precipitation.prepare(scene, m.frame.light(), m.pixel_rad);
+        m.precipitation.prepare(scene, m.frame.light(), m.pixel_rad,
+                                m.frame.plan().thins(Thin::kPrecipitation) ? kThinnedPrecipitation : 1.0);
     m.prepare_discs(0);
     if (m.deferred) m.refresh_deferred();
     if (m.wet && m.frame.plan().needs(Pass::kWetThings)) m.wet->prepare(scene, m.frame.light());
@@ -379,6 +384,8 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
     }
     if (!m.deferred) {
         m.deferred = std::make_unique<DeferredPass>();
+        m.frame.serve_things();
+        m.prepare_clouds();
         m.refresh_deferred();
     }
     m.pictures.begin(channel);
@@ -427,7 +434,11 @@ glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu, double di
     const shaders64::ToneParameters& tone = impl_->frame.tone();
     const DeferredAir* air = impl_->frame.air_between();
     if (air == nullptr) return shaders64::shown(rgb_cd_m2, tone);
-    return shaders64::shown(air->under_air(rgb_cd_m2, direction_enu, distance_m), tone);
+    const glm::dvec3 lit_cd_m2 =
+        rgb_cd_m2 * impl_->frame.ground_shadow().on_thing(direction_enu * distance_m);
+    const glm::dvec3 seen_cd_m2 = air->under_air(lit_cd_m2, direction_enu, distance_m);
+    return shaders64::shown(impl_->frame.clouds().before_thing(*air, seen_cd_m2, direction_enu, distance_m),
+                            tone);
 }
 
 }  // namespace skyig::render
