@@ -150,7 +150,9 @@ void Renderer::Impl::write_texts(std::size_t channel) {
     texts->clear();
     const Channel& picture = channels[channel];
     write_pattern_text(*texts, picture, scene.views[channel]);
-    write_overlay(*texts, picture, scene.overlay, scene.views[channel].overlay, frame.adaptation_cd_m2());
+    // Patterns are as bright by night as by day.
+    const double code = shows_pattern(channel) ? kDayTextCode : text_code(frame.adaptation_cd_m2());
+    write_overlay(*texts, picture, scene.overlay, scene.views[channel].overlay, code);
     gl::set_blend(gl::Blend::kCoverage);
     texts->draw(picture.width_px, picture.height_px);
 }

@@ -92,10 +92,11 @@ void Framebuffer::cross_out() {
     constexpr std::array<GLfloat, 4> kGround{0.25F, 0.0F, 0.0F, 1.0F};
     constexpr std::array<GLfloat, 4> kCross{0.9F, 0.0F, 0.0F, 1.0F};
     glClearNamedFramebufferfv(framebuffer_, GL_COLOR, 0, kGround.data());
-    // Both diagonals in steps.
+    // Both diagonals in steps, of blocks that overlap.
     constexpr int kSteps = 64;
-    const int wide_px = std::max(1, width_px_ / kSteps);
-    const int tall_px = std::max(1, height_px_ / kSteps);
+    constexpr int kBlocks = 24;
+    const int wide_px = std::max(1, width_px_ / kBlocks);
+    const int tall_px = std::max(1, height_px_ / kBlocks);
     glEnable(GL_SCISSOR_TEST);
     for (int i = 0; i < kSteps; ++i) {
         const int left_px = i * (width_px_ - wide_px) / (kSteps - 1);

@@ -42,7 +42,7 @@ inline constexpr std::uint8_t kShowsWarning = 1U << Overlay::kLines;
 /// Code of the text, 0..1, for an eye adapted to a luminance: bright by day, and by night no more than
 /// kNightTextCode, so that text does not blind who looks past it at the stars.
 inline constexpr double kDayTextCode = 0.9;
-inline constexpr double kNightTextCode = 0.25;
+inline constexpr double kNightTextCode = 0.5;
 [[nodiscard]] double text_code(double adaptation_cd_m2) noexcept;
 
 }  // namespace skyig::render

@@ -20,18 +20,18 @@ void write_warning(TextPass& text, const Channel& channel, std::string_view line
 }  // namespace
 
 void write_overlay(TextPass& text, const Channel& channel, const Overlay& overlay, std::uint8_t shown,
-                   double adaptation_cd_m2) {
-    const auto code = static_cast<float>(text_code(adaptation_cd_m2));
+                   double code) {
+    const auto grey = static_cast<float>(code);
     const int scale = std::clamp(channel.text_scale, 1, kMaxTextScale);
     int top_px = scale * kGlyphStep;
     for (std::size_t i = 0; i < Overlay::kLines; ++i) {
         if ((shown >> i & 1U) == 0 || overlay.lines[i].text().empty()) continue;
         text.add(overlay.lines[i].text(), scale * kGlyphStep, top_px,
-                 {.scale = scale, .colour = {code, code, code}});
+                 {.scale = scale, .colour = {grey, grey, grey}});
         top_px += scale * kLineStep;
     }
     if ((shown & kShowsWarning) != 0 && !overlay.warning.text().empty())
-        write_warning(text, channel, overlay.warning.text(), code);
+        write_warning(text, channel, overlay.warning.text(), grey);
 }
 
 }  // namespace skyig::render

@@ -9,8 +9,9 @@
 
 namespace skyig::render {
 
-/// \param shown  which of its lines, as in ChannelView::overlay. Allocates nothing.
+/// \param shown  which of its lines, as in ChannelView::overlay \param code  of the text, as text_code() has
+/// it. Allocates nothing.
 void write_overlay(TextPass& text, const Channel& channel, const Overlay& overlay, std::uint8_t shown,
-                   double adaptation_cd_m2);
+                   double code);
 
 }  // namespace skyig::render

@@ -107,7 +107,7 @@ TEST_F(ShowingTest, TextIsInkedAsItsFontAndNoBrighterThanTheNightAllows) {
         const int text =
             static_cast<int>(std::lround(255.0 * text_code(renderer.prepare(scene).adaptation_cd_m2)));
         EXPECT_TRUE(renderer.prepare(scene).plan.needs(Pass::kOverlay));
-        EXPECT_LE(text, night ? 65 : 230);
+        EXPECT_LE(text, night ? 128 : 230);
         int inked = 0;
         const std::string_view line = "Mode 7";
         for (int i = 0; i < static_cast<int>(line.size()); ++i) {

@@ -134,8 +134,8 @@ TEST(GlPainter, AChannelThatFailsIsCrossedOutAndTheOthersGoOn) {
         if (!painter.health(0).failed) break;
         const auto [bright, any] = red_parts(now[0]);
         EXPECT_EQ(any, 1.0);
-        EXPECT_GT(bright, 0.015);
-        EXPECT_LT(bright, 0.1);
+        EXPECT_GT(bright, 0.04);
+        EXPECT_LT(bright, 0.2);
         ++crossed;
     } while (++frames < 100);
     // Three tries fail, in frames 1, 2 and 4; the next is in frame 8.

@@ -355,6 +355,7 @@ TEST_F(FrameLoopTest, PublishesASnapshotTenTimesASecond) {
 }
 
 TEST_F(FrameLoopTest, AllocatesNothingInSteadyState) {
+    config_.overlay = {.mode = true, .rate = true, .host = true, .host_lost = true};
     ImageWriter images("out", render_channels(config_), 2,
                        [](const std::string&, const render::Channel&, std::span<const std::byte>,
                           std::string&) { return true; });
