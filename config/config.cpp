@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "config/document.h"
@@ -49,6 +50,13 @@ Config default_config() {
     Config config;
     config.channels.emplace_back().name = "centre";
     return config;
+}
+
+void show_pattern(Config& config, std::string_view pattern) noexcept {
+    const auto* const at = std::find(kPatternNames.begin(), kPatternNames.end(), pattern);
+    if (at == kPatternNames.end()) return;
+    for (Channel& channel : config.channels)
+        channel.pattern = static_cast<Pattern>(at - kPatternNames.begin());
 }
 
 std::string to_text(const ConfigError& error) {

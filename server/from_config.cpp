@@ -5,6 +5,7 @@
 namespace skyig::server {
 
 static_assert(config::kMaxChannels == render::kMaxChannels);
+static_assert(config::kMaxTextScale == render::kMaxTextScale);
 
 ephemeris::UtcClockTime start_time(const config::Start& start, const Clock& clock) {
     constexpr std::int64_t kNsPerSecond = 1'000'000'000;
@@ -40,6 +41,7 @@ std::vector<render::Channel> render_channels(const config::Config& config) {
     for (const config::Channel& channel : config.channels) {
         channels.push_back({channel.name, channel.width_px, channel.height_px});
         if (channel.display) channels.back().screen = screen(*channel.display);
+        channels.back().text_scale = channel.overlay.value_or(config.overlay).scale;
     }
     return channels;
 }
@@ -202,6 +204,28 @@ render::DisplaySettings display_settings(const config::Config& config) {
     settings.adapt_down_s = eye.adapt_down_s;
     settings.glare = eye.glare;
     return settings;
+}
+
+namespace {
+
+static_assert(config::kThinningNames.size() == render::kThinCount &&
+                  static_cast<int>(config::Thinning::kCloudRefresh) ==
+                      static_cast<int>(render::Thin::kCloudRefresh) &&
+                  static_cast<int>(config::Thinning::kCloudMotion) ==
+                      static_cast<int>(render::Thin::kCloudMotion) &&
+                  static_cast<int>(config::Thinning::kDome) == static_cast<int>(render::Thin::kDome) &&
+                  static_cast<int>(config::Thinning::kStars) == static_cast<int>(render::Thin::kStars) &&
+                  static_cast<int>(config::Thinning::kPrecipitation) ==
+                      static_cast<int>(render::Thin::kPrecipitation) &&
+                  static_cast<int>(config::Thinning::kWaves) == static_cast<int>(render::Thin::kWaves) &&
+                  static_cast<int>(config::Thinning::kGlare) == static_cast<int>(render::Thin::kGlare) &&
+                  static_cast<int>(config::Thinning::kMilkyWay) == static_cast<int>(render::Thin::kMilkyWay),
+              "one order of what can be left out in settings and plan");
+
+}  // namespace
+
+render::Thin thin_of(config::Thinning thinning) noexcept {
+    return static_cast<render::Thin>(thinning);
 }
 
 }  // namespace skyig::server

@@ -7,9 +7,6 @@ namespace skyig::render::cloud {
 
 namespace {
 
-// The slot of the near map's source; the snapshots have those before it.
-constexpr std::size_t kNearSlot = CloudMaker::kSlots - 1;
-
 // Beyond where density ends, what an eye that climbs may cover while a snapshot serves.
 constexpr double kNearReserve_m = 100.0;
 
@@ -67,10 +64,25 @@ const CloudLayer* layer_of(const Weather& weather, std::uint32_t seed) noexcept 
     return found == clouds.end() ? nullptr : &*found;
 }
 
-/// Whether the eye was carried to another place since the frame before: no craft covers so much in one.
+/// Whether the eye was carried to another place since the frame before: no craft covers so much in one. Or
+/// beside a pole, where the directions that the map is fixed to turn under the eye.
 bool has_leapt(const Eye& before, const Eye& now) noexcept {
+    constexpr double kMostTurn_rad = 0.1;
     const glm::dvec3 way_m = eye_offset_m(before, now);
-    return std::hypot(way_m.x, way_m.y) > 500.0 + 0.02 * std::abs(now.height_m);
+    return std::hypot(way_m.x, way_m.y) > 500.0 + 0.02 * std::abs(now.height_m) ||
+           std::abs(axes_turn_rad(before, now)) > kMostTurn_rad;
+}
+
+/// Where the eye will be; those that come near a pole are not led, for latitude and longitude go on to
+/// nowhere there.
+Eye led(Eye eye, const Eye& motion_a_frame, double frames) noexcept {
+    constexpr double kLast_deg = 89.98;
+    if (std::abs(eye.latitude_deg + frames * motion_a_frame.latitude_deg) < kLast_deg) {
+        eye.latitude_deg += frames * motion_a_frame.latitude_deg;
+        eye.longitude_deg += frames * motion_a_frame.longitude_deg;
+    }
+    eye.height_m += frames * motion_a_frame.height_m;
+    return eye;
 }
 
 }  // namespace
@@ -145,9 +157,7 @@ Frozen CloudMap::frozen_at(const MapFrame& frame, const Eye& eye) const noexcept
 
 void CloudMap::begin(CloudMaker& maker, const MapFrame& frame, double frames_ahead) {
     CloudMoment moment = frame.moment;
-    moment.eye.latitude_deg += frames_ahead * motion_a_frame_.latitude_deg;
-    moment.eye.longitude_deg += frames_ahead * motion_a_frame_.longitude_deg;
-    moment.eye.height_m += frames_ahead * motion_a_frame_.height_m;
+    moment.eye = led(moment.eye, motion_a_frame_, frames_ahead);
     next_grows_ = have_grown(frozen_weather_, frame.moment.scene.weather);
     march_frames_ = 0;
     frozen_eye_ = frame.moment.eye;
@@ -248,13 +258,16 @@ void CloudMap::fill_in() {
 
 void CloudMap::show_near(CloudMaker& maker, const MapFrame& frame) {
     const auto in_use = parts();
-    near_shown_ =
+    const bool shown =
         std::any_of(in_use.begin(), in_use.end(), [](const Part& part) { return part.beyond_near; });
+    if (shown != near_shown_) ++revision_;
+    near_shown_ = shown;
     if (!near_shown_) return;
     Frozen frozen = frozen_at(frame, frame.moment.eye);
     frozen.range = {0.0F, static_cast<float>(kNearRange_m)};
-    near_rays_ = near_.march(maker.freeze(kNearSlot, frame.moment), frame.views, frozen);
-    ++revision_;
+    // All of a tile that is seen is asked for.
+    const double margin_rad = 1.5 * kTile * geometry_.worst_texel_rad();
+    near_rays_ = near_.march(maker.freeze(CloudMaker::kNearSlot, frame.moment), frame.views, margin_rad, frozen);
 }
 
 void CloudMap::tell_parts(const MapFrame& frame) noexcept {
@@ -324,18 +337,27 @@ bool CloudMap::may_show(int tile) const noexcept {
 
 namespace {
 
-void add_part(CloudMap::Sight& sight, const CloudMap::Part& part, const LightAndPassed::Lanes& light,
-              double reach_m, const LightAndPassed::Lanes& near_light) noexcept {
-    const double passed = part.beyond_near ? static_cast<double>(near_light[3]) : 1.0;
-    const double factor = static_cast<double>(part.weight) * passed;
-    sight.far_light_cd_m2 += factor * glm::dvec3{light[0], light[1], light[2]};
-    sight.far_opacity += factor * (1.0 - static_cast<double>(light[3]));
-    sight.distance_m += factor * reach_m;
-    sight.transmittance += factor * static_cast<double>(light[3]);
-    if (part.beyond_near) {
-        sight.near_light_cd_m2 +=
-            static_cast<double>(part.weight) * glm::dvec3{near_light[0], near_light[1], near_light[2]};
-    }
+void add_part(CloudMap::Sight& sight, const CloudMap::Part& part, const Snapshot::Seen& far,
+              const Snapshot::Seen& near) noexcept {
+    const auto rgb = [](const LightAndPassed::Lanes& light) {
+        return glm::dvec3{light[0], light[1], light[2]};
+    };
+    const auto weight = static_cast<double>(part.weight);
+    const double factor = part.beyond_near ? weight * static_cast<double>(near.light[3]) : weight;
+    sight.far_light_cd_m2 += factor * rgb(far.light);
+    sight.far_opacity += factor * (1.0 - static_cast<double>(far.light[3]));
+    sight.distance_m += factor * static_cast<double>(far.reach_m);
+    sight.transmittance += factor * static_cast<double>(far.light[3]);
+    if (!part.beyond_near) return;
+    sight.near_light_cd_m2 += weight * rgb(near.light);
+    sight.near_opacity += weight * (1.0 - static_cast<double>(near.light[3]));
+    sight.near_distance_m += weight * static_cast<double>(near.reach_m);
+}
+
+// From sums of distances by their opacity.
+void mean_distances(CloudMap::Sight& sight) noexcept {
+    sight.distance_m = sight.far_opacity > 0.0 ? sight.distance_m / sight.far_opacity : 0.0;
+    sight.near_distance_m = sight.near_opacity > 0.0 ? sight.near_distance_m / sight.near_opacity : 0.0;
 }
 
 }  // namespace
@@ -346,14 +368,13 @@ CloudMap::Sight CloudMap::sight(const glm::dvec3& direction_enu) const noexcept 
         direction_enu / (std::abs(direction_enu.x) + std::abs(direction_enu.y) + std::abs(direction_enu.z))};
     Sight sight;
     sight.transmittance = 0.0;
-    const LightAndPassed::Lanes near_light =
-        near_shown_ ? near_.seen(direction) : LightAndPassed::Lanes{0.0F, 0.0F, 0.0F, 1.0F};
-    for (const Part& part : parts()) {
-        const Snapshot::Seen seen =
-            part.snapshot->seen(direction, part.snapshot->inverse_distance(direction), part.offset_m);
-        add_part(sight, part, seen.light, static_cast<double>(seen.reach_m), near_light);
-    }
-    sight.distance_m = sight.far_opacity > 0.0 ? sight.distance_m / sight.far_opacity : 0.0;
+    const Snapshot::Seen near =
+        near_shown_ ? near_.seen(direction) : Snapshot::Seen{{0.0F, 0.0F, 0.0F, 1.0F}, 0.0F};
+    for (const Part& part : parts())
+        add_part(sight, part,
+                 part.snapshot->seen(direction, part.snapshot->inverse_distance(direction), part.offset_m),
+                 near);
+    mean_distances(sight);
     return sight;
 }
 
@@ -363,12 +384,12 @@ CloudMap::Sight CloudMap::probe(std::size_t index) const noexcept {
     sight.transmittance = 0.0;
     for (const Part& part : parts()) {
         const CloudSample& sample = part.snapshot->probes()[index];
-        const LightAndPassed::Lanes light{sample.light_cd_m2.x, sample.light_cd_m2.y, sample.light_cd_m2.z,
-                                          sample.transmittance};
-        add_part(sight, {part.snapshot, part.weight, {}, false}, light,
-                 static_cast<double>((1.0F - sample.transmittance) * sample.distance_m), light);
+        const Snapshot::Seen seen{
+            {sample.light_cd_m2.x, sample.light_cd_m2.y, sample.light_cd_m2.z, sample.transmittance},
+            (1.0F - sample.transmittance) * sample.distance_m};
+        add_part(sight, {part.snapshot, part.weight, {}, false}, seen, seen);
     }
-    sight.distance_m = sight.far_opacity > 0.0 ? sight.distance_m / sight.far_opacity : 0.0;
+    mean_distances(sight);
     return sight;
 }
 

@@ -65,7 +65,8 @@ class CloudMap {
     /// One or two, whose weights sum to 1.
     [[nodiscard]] std::span<const Part> parts() const noexcept { return {parts_.data(), part_count_}; }
     [[nodiscard]] const NearMap* near_map() const noexcept { return near_shown_ ? &near_ : nullptr; }
-    /// Rises whenever what is seen has changed by anything but the eye's motion, which Part::offset_m tells.
+    /// Rises whenever what is seen of far clouds has changed by anything but the eye's motion, which
+    /// Part::offset_m tells.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
     /// Tiles that a view sees: all of them are known.
@@ -81,6 +82,8 @@ class CloudMap {
         double far_opacity = 0.0;         ///< likewise
         double distance_m = 0.0;          ///< of that part
         glm::dvec3 near_light_cd_m2{0.0};
+        double near_opacity = 0.0;
+        double near_distance_m = 0.0;
         double transmittance = 1.0;  ///< of all
     };
     /// \param direction_enu  unit vector, in a view

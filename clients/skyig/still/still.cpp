@@ -75,6 +75,7 @@ config::Config still_config(const StillOptions& options) {
     start.roll_deg = options.roll_deg.value_or(start.roll_deg);
     config.air.visibility_m = options.visibility_m.value_or(config.air.visibility_m);
     config.sky.model = options.sky_model.value_or(config.sky.model);
+    if (!options.pattern.empty()) config::show_pattern(config, options.pattern);
     return config;
 }
 

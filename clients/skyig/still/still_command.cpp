@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "clients/skyig/validators.h"
+#include "config/pattern.h"
 #include "render/sky_settings.h"
 
 namespace skyig::clients {
@@ -49,6 +51,10 @@ void add_still(CLI::App& verb, StillOptions& options) {
                                           "model of the day sky (the settings', or multi)")
         ->check(sky_model_name())
         ->type_name("MODEL");
+    verb.add_option("--pattern", options.pattern, "a test pattern in place of the sky, in all channels")
+        ->check(CLI::IsMember(
+            std::vector<std::string>(config::kPatternNames.begin(), config::kPatternNames.end())))
+        ->type_name("NAME");
     verb.add_option("--width", options.width_px, "pixels across (1280)")
         ->check(CLI::Range(1, 16384))
         ->excludes(config);
