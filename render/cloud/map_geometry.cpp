@@ -63,7 +63,9 @@ int map_size_for(double pixel_rad, std::span<const ChannelView> views) noexcept 
     }
     const double share = std::min(seen_sr / (4.0 * std::numbers::pi), 1.0);
     int size = kLeastMap;
-    while (size < kLargestMap && MapGeometry(size).worst_texel_rad() > 4.0 * pixel_rad)
+    // The least map is coarse to look at: edges of clouds are stairs in it sooner.
+    while (size < kLargestMap &&
+           MapGeometry(size).worst_texel_rad() > (size == kLeastMap ? 2.5 : 4.0) * pixel_rad)
         size *= 2;
     while (size > kLeastMap && share * static_cast<double>(MapGeometry(size).texel_count()) > kMostSeenTexels)
         size /= 2;

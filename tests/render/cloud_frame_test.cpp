@@ -45,7 +45,8 @@ TEST(CloudMapGeometry, PlacesAndDirectionsAreInverseAndTheRimIsCommon) {
 TEST(CloudMapGeometry, SizeGoesByTheFinestPixelAndWhatIsSeen) {
     std::vector<ChannelView> one{{symmetric_frustum(30.0, 1280, 1024), view_from_enu(0.0, 0.0, 0.0)}};
     EXPECT_EQ(cloud::map_size_for(9.0e-4, one), 1024);
-    EXPECT_EQ(cloud::map_size_for(2.0e-3, one), 512);
+    EXPECT_EQ(cloud::map_size_for(1.8e-3, one), 1024) << "640 pixels";
+    EXPECT_EQ(cloud::map_size_for(3.6e-3, one), 512);
     EXPECT_EQ(cloud::map_size_for(4.0e-4, one), 2048);
     EXPECT_EQ(cloud::map_size_for(9.0e-4, std::vector<ChannelView>(3, one[0])), 1024);
     EXPECT_EQ(cloud::map_size_for(9.0e-4, std::vector<ChannelView>(8, one[0])), 512);
