@@ -110,8 +110,9 @@ class Rig {
     Rig(Still still, const server::Clock& clock)
         : clock_(clock),
           scene_(std::move(still.scene)),
-          painter_(server::render_channels(still.config), server::display_settings(still.config),
-                   server::quality(still.config)) {}
+          painter_({.channels = server::render_channels(still.config),
+                    .display = server::display_settings(still.config),
+                    .quality = server::quality(still.config)}) {}
 
     render::Scene& scene() noexcept { return scene_; }
     server::GlPainter& painter() noexcept { return painter_; }
