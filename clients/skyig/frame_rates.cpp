@@ -61,7 +61,7 @@ constexpr std::array<Claim, 5> kClaims{{{"scattering sky by day, 1280x1024, GeFo
                                         {"the same by night", 320.0},
                                         {"sky and clouds over 80,000 polygons, 1024x768, Radeon X700", 120.0},
                                         {"another sky, size and card not told", 67.0},
-     {"sky with clouds, mobile Radeon HD 5870", 50.0}}};
+                                        {"sky with clouds, mobile Radeon HD 5870", 50.0}}};
 
 constexpr double kRate_hz = 60.0;
 constexpr double kSpeed_m_s = 100.0;
