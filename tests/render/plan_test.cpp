@@ -347,7 +347,7 @@ TEST(Plan, SaysWhatIsThinnedOutAndWhatWouldHelp) {
         return plan;
     };
     const auto helps = [](const Plan& plan, Thin thin) {
-        return thinnable(plan)[static_cast<std::size_t>(thin)];
+        return thinnable(plan).test(static_cast<std::size_t>(thin));
     };
     const Plan whole = planned();
     EXPECT_TRUE(helps(whole, Thin::kStars) && helps(whole, Thin::kMilkyWay) && helps(whole, Thin::kGlare));
