@@ -1,7 +1,9 @@
 // A display channel: a rectangle of pixels that looks through its own frustum from the shared eye point.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +11,11 @@
 #include "render/display.h"
 
 namespace skyig::render {
+
+namespace warp {
+class Warp;
+struct Blend;
+}  // namespace warp
 
 /// Signed half angles in radians from the view axis to each side plane of a perspective frustum:
 /// left < right, bottom < top, each strictly inside (-pi/2, pi/2). Left and bottom are normally negative.
@@ -21,6 +28,9 @@ struct Frustum {
     friend bool operator==(const Frustum&, const Frustum&) = default;
 };
 
+/// How a warped channel is drawn: everything at once where the screen shows it, or flat and then resampled.
+enum class WarpDrawing : std::uint8_t { kDirect, kResampled };
+
 /// What of a channel never changes while the daemon runs.
 struct Channel {
     std::string name;
@@ -28,6 +38,13 @@ struct Channel {
     int height_px = 0;
     /// Its own; not given: that of the rig's DisplaySettings.
     std::optional<Screen> screen = {};
+    /// Null: the screen shows the frustum's flat picture. \see warp/warp.h
+    std::shared_ptr<const warp::Warp> warp = {};
+    WarpDrawing drawing = WarpDrawing::kDirect;
+    /// Of the flat picture that is resampled, by the screen's pixels each way, 0.25..4.
+    double render_scale = 1.0;
+    /// Null: no other projector shines on the screen. Not of targets of luminance. \see warp/blend.h
+    std::shared_ptr<const warp::Blend> blend = {};
 };
 
 /// Where a channel looks in one frame. The view frame is x right, y up, -z along the view axis.
@@ -47,12 +64,17 @@ struct ImagePlane {
 [[nodiscard]] ImagePlane image_plane(const Frustum& frustum) noexcept;
 
 /// Direction in the view frame (unit) through image coordinates in pixels, origin at the lower left corner of
-/// the lower left pixel, so that pixel (i, j) has its centre at (i + 0.5, j + 0.5).
+/// the lower left pixel, so that pixel (i, j) has its centre at (i + 0.5, j + 0.5); as its warp shows it.
 [[nodiscard]] glm::dvec3 view_direction(const Channel& channel, const Frustum& frustum, double x_px,
                                         double y_px) noexcept;
 
-/// Angle between neighbouring pixel centres on the view axis, the larger of the two directions, radians.
+/// Angle between neighbouring pixel centres on the view axis, the larger of the two directions, radians; with
+/// a warp where the screen's pixels are finest.
 [[nodiscard]] double pixel_angle_rad(const Channel& channel, const Frustum& frustum) noexcept;
+
+/// Longest edge of a triangle, radians, whose straight image in a warped channel is off by no more than half
+/// a pixel, nor 0.02 deg where that is more than a quarter; 2..180 deg, the latter without a warp.
+[[nodiscard]] double longest_edge_rad(const Channel& channel, const Frustum& frustum) noexcept;
 
 /// Whether anything can be seen through a frustum.
 [[nodiscard]] bool has_area(const Frustum& frustum) noexcept;

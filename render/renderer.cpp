@@ -1,9 +1,13 @@
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "render/blend_pass.h"
 #include "render/cloud_pass.h"
 #include "render/deferred_pass.h"
 #include "render/discs.h"
@@ -11,15 +15,17 @@
 #include "render/gl/debug_log.h"
 #include "render/gl/draw.h"
 #include "render/gl/framebuffer.h"
-#include "render/gl/mesh.h"
 #include "render/gl/program.h"
 #include "render/glare_pass.h"
 #include "render/milky_way_pass.h"
 #include "render/precipitation_pass.h"
+#include "render/refined_mesh.h"
 #include "render/screens.h"
 #include "render/sea_pass.h"
 #include "render/sky_frame.h"
 #include "render/star_pass.h"
+#include "render/warp/warp.h"
+#include "render/warp_pass.h"
 #include "render/wet_pass.h"
 
 namespace skyig::render {
@@ -33,6 +39,24 @@ glm::dmat4 clip_from_view(const Frustum& frustum) {
     const double height = p.top - p.bottom;
     return {glm::dvec4{2.0 / width, 0.0, 0.0, 0.0}, glm::dvec4{0.0, 2.0 / height, 0.0, 0.0},
             glm::dvec4{(p.right + p.left) / width, (p.top + p.bottom) / height, 0.0, -1.0}, glm::dvec4{0.0}};
+}
+
+// What of a channel's flat picture may show, with a fiftieth to spare for edges that are drawn straight.
+glm::dmat4 shown_from_clip_of(const warp::Warp& warp) {
+    const glm::dvec2 low = 2.0 * glm::dvec2{warp.shown().x, warp.shown().y} - 1.0;
+    const glm::dvec2 high = 2.0 * glm::dvec2{warp.shown().z, warp.shown().w} - 1.0;
+    const glm::dvec2 scale = 2.0 / (1.04 * (high - low));
+    const glm::dvec2 shift = -0.5 * scale * (high + low);
+    return {glm::dvec4{scale.x, 0.0, 0.0, 0.0}, glm::dvec4{0.0, scale.y, 0.0, 0.0},
+            glm::dvec4{0.0, 0.0, 1.0, 0.0}, glm::dvec4{shift, 0.0, 1.0}};
+}
+
+// The flat picture of a channel that is resampled.
+Channel flat_picture_of(const Channel& channel) {
+    const auto scaled = [&](int size_px) {
+        return std::max(1, static_cast<int>(std::lround(channel.render_scale * size_px)));
+    };
+    return {channel.name, scaled(channel.width_px), scaled(channel.height_px)};
 }
 
 gl::PixelFormat pixel_format(Target target) {
@@ -54,22 +78,37 @@ struct Renderer::Impl {
          Target target)
         : channels(std::move(channel_list)),
           display(display_settings),
+          pixels_hold(target),
           screens(screens_of(channels, display_settings)),
+          flat_pictures(channels.size()),
+          blend(channels, display_settings.dither),
           frame(display_settings, quality, screens.distinct, target) {
         display.dither = display.dither && target == Target::kDisplay;
         for (const Channel& channel : channels)
             targets.emplace_back(channel.width_px, channel.height_px, pixel_format(target));
+        for (const Channel& channel : channels)
+            flat_channels.push_back(flat_picture_of(channel));
         for (std::size_t i = 0; i < screens.distinct.size(); ++i)
-            dome_meshes.emplace_back(std::initializer_list<int>{3, 3, 3}, Dome::kMaxVertices);
+            dome_meshes.emplace_back(std::initializer_list<int>{3, 3, 3}, Dome::kMaxVertices,
+                                     placement == gl::Placement::kWarped);
         dome_program.set(dome_program.uniform("u_dither_codes"), display.dither ? 1.0F : 0.0F);
         gl::set_common_state();
     }
 
+    void begin(std::size_t channel, bool flat);
+    void finish(std::size_t channel);
+    /// What the channel that is begun draws into.
+    [[nodiscard]] const Channel& drawn(std::size_t channel) const noexcept {
+        return draws_flat ? flat_channels[channel] : channels[channel];
+    }
+    [[nodiscard]] glm::dmat4 shown_from_clip(std::size_t channel) const noexcept;
+    void measure_warps();
     void upload_dome();
     void prepare_discs(std::size_t screen);
     void prepare_moon(std::size_t screen);
     void draw_dome(std::size_t channel, const glm::dmat4& clip_from_enu);
-    void draw_clouded_dome(std::size_t channel, const glm::dmat4& clip_from_mesh, std::uint32_t sea_rows);
+    void draw_clouded_dome(std::size_t channel, const glm::dmat4& clip_from_mesh,
+                           const glm::dmat4& shown_from_mesh, std::uint32_t sea_rows);
     void prepare_clouds();
     [[nodiscard]] const CloudPass* shown_clouds() const noexcept {
         return frame.clouds().shown() ? clouds.get() : nullptr;
@@ -86,26 +125,32 @@ struct Renderer::Impl {
 
     std::vector<Channel> channels;
     DisplaySettings display;
+    Target pixels_hold;
     Screens screens;
     gl::DebugLog log;
     std::vector<gl::Framebuffer> targets;
-    gl::Program dome_program{"sky/dome.vert", "sky/dome.frag"};
+    std::vector<Channel> flat_channels;
+    std::vector<std::optional<gl::Framebuffer>> flat_pictures;  // once one is resampled
+    gl::Placement placement = placement_of(channels);
+    WarpPass warps{channels};
+    BlendPass blend;
+    gl::Program dome_program{"sky/dome.vert", "sky/dome.frag", placement};
     int dome_clip = dome_program.uniform("u_clip_from_mesh");
     int dome_half_size = dome_program.uniform("u_half_size_px");
     int dome_share = dome_program.uniform("u_share");
-    std::vector<gl::Mesh> dome_meshes;  // one a screen
+    std::vector<RefinedMesh> dome_meshes;  // one a screen
     std::uint64_t triangles_revision = 0;
     std::uint64_t vertices_revision = 0;
     std::unique_ptr<CloudPass> clouds;  // once there are any
-    SeaPass sea{screens.distinct.size()};
-    MilkyWayPass milky_way{screens.distinct.size()};
-    StarPass stars;
-    Corona corona;
-    SunDisc sun_disc;
-    MoonDisc moon_disc;
-    PrecipitationPass precipitation;
-    GlarePass sun_glare;
-    GlarePass moon_glare;
+    SeaPass sea{screens.distinct.size(), placement};
+    MilkyWayPass milky_way{screens.distinct.size(), placement};
+    StarPass stars{placement};
+    Corona corona{placement};
+    SunDisc sun_disc{placement};
+    MoonDisc moon_disc{placement};
+    PrecipitationPass precipitation{placement};
+    GlarePass sun_glare{placement};
+    GlarePass moon_glare{placement};
     std::unique_ptr<DeferredPass> deferred;  // once a scene is drawn
     std::unique_ptr<WetPass> wet;            // once a wet one is
 
@@ -113,18 +158,63 @@ struct Renderer::Impl {
     SkyFrame frame;
     Scene scene;
     double pixel_rad = 1e-3;
+    double longest_edge_rad = std::numbers::pi;  // of a triangle in the rig's warped channels
+    double uploaded_edge_rad = 0.0;
+    bool draws_flat = false;
     std::size_t discs_screen = 0;  // what discs are prepared for
     FrameReport report;
 };
 
-void Renderer::Impl::upload_dome() {
-    for (std::size_t screen = 0; screen < dome_meshes.size(); ++screen) {
-        gl::Mesh& mesh = dome_meshes[screen];
-        if (triangles_revision != frame.triangles_revision()) mesh.set_indices(frame.dome().indices());
-        if (vertices_revision == frame.vertices_revision()) continue;
-        const auto vertices = frame.dome().vertices(screen);
-        mesh.update({reinterpret_cast<const float*>(vertices.data()), vertices.size_bytes() / sizeof(float)});
+void Renderer::Impl::begin(std::size_t channel, bool flat) {
+    draws_flat = flat && channels[channel].warp;
+    if (!draws_flat) {
+        warps.bind(channel);
+        targets[channel].bind();
+        return;
     }
+    std::optional<gl::Framebuffer>& picture = flat_pictures[channel];
+    const Channel& size = flat_channels[channel];
+    if (!picture) picture.emplace(size.width_px, size.height_px, pixel_format(pixels_hold));
+    warps.bind_flat();
+    picture->bind();
+}
+
+void Renderer::Impl::finish(std::size_t channel) {
+    if (draws_flat) {
+        targets[channel].bind();
+        warps.resample(channel, *flat_pictures[channel]);
+    }
+    if (pixels_hold == Target::kDisplay) blend.draw(channel, targets[channel], tone32(channel).encode_power);
+    gl::finish();
+}
+
+glm::dmat4 Renderer::Impl::shown_from_clip(std::size_t channel) const noexcept {
+    if (draws_flat || !channels[channel].warp) return glm::dmat4{1.0};
+    return shown_from_clip_of(*channels[channel].warp);
+}
+
+void Renderer::Impl::measure_warps() {
+    longest_edge_rad = std::numbers::pi;
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        if (!shows(i) || channels[i].drawing == WarpDrawing::kResampled) continue;
+        longest_edge_rad =
+            std::min(longest_edge_rad, render::longest_edge_rad(channels[i], scene.views[i].frustum));
+    }
+}
+
+void Renderer::Impl::upload_dome() {
+    const bool triangles =
+        triangles_revision != frame.triangles_revision() || uploaded_edge_rad != longest_edge_rad;
+    for (std::size_t screen = 0; screen < dome_meshes.size(); ++screen) {
+        const auto dome = frame.dome().vertices(screen);
+        const std::span<const float> vertices{reinterpret_cast<const float*>(dome.data()),
+                                              dome.size_bytes() / sizeof(float)};
+        if (triangles)
+            dome_meshes[screen].set_triangles(frame.dome().indices(), vertices, longest_edge_rad);
+        else if (vertices_revision != frame.vertices_revision())
+            dome_meshes[screen].set_vertices(vertices);
+    }
+    uploaded_edge_rad = longest_edge_rad;
     triangles_revision = frame.triangles_revision();
     vertices_revision = frame.vertices_revision();
 }
@@ -149,8 +239,9 @@ void Renderer::Impl::prepare_moon(std::size_t screen) {
 }
 
 void Renderer::Impl::draw_dome(std::size_t index, const glm::dmat4& clip_from_enu) {
-    const Channel& channel = channels[index];
+    const Channel& channel = drawn(index);
     const glm::dmat4 clip_from_mesh = clip_from_enu * frame.enu_from_mesh();
+    const glm::dmat4 shown_from_mesh = shown_from_clip(index) * clip_from_mesh;
     dome_program.use();
     dome_program.set(dome_clip, glm::mat4{clip_from_mesh});
     dome_program.set(dome_half_size, 0.5F * glm::vec2{channel.width_px, channel.height_px});
@@ -159,29 +250,29 @@ void Renderer::Impl::draw_dome(std::size_t index, const glm::dmat4& clip_from_en
     const auto sea_rows = static_cast<std::uint32_t>(frame.sea_rows());
     const bool clouded = frame.clouds().shown();
     const Marked plain = clouded ? Marked::kNo : Marked::kAll;
-    for (const IndexRange& range : frame.dome().visible(clip_from_mesh, {.first = sea_rows}, plain))
-        dome_meshes[screen].draw_triangles(range.first, range.count);
+    for (const IndexRange& range : frame.dome().visible(shown_from_mesh, {.first = sea_rows}, plain))
+        dome_meshes[screen].draw(range);
     if (sea_rows > 0) {
         sea.draw(channel, screen, eye::single_precision(frame.tone(screen)), clip_from_mesh,
-                 frame.dome().visible(clip_from_mesh, {.end = sea_rows}));
+                 frame.dome().visible(shown_from_mesh, {.end = sea_rows}));
     }
-    if (clouded) draw_clouded_dome(index, clip_from_mesh, sea_rows);
+    if (clouded) draw_clouded_dome(index, clip_from_mesh, shown_from_mesh, sea_rows);
 }
 
 void Renderer::Impl::draw_clouded_dome(std::size_t index, const glm::dmat4& clip_from_mesh,
-                                       std::uint32_t sea_rows) {
+                                       const glm::dmat4& shown_from_mesh, std::uint32_t sea_rows) {
     const std::size_t screen = screens.of_channel[index];
     const auto draw_ranges = [&](std::span<const IndexRange> ranges) {
         for (const IndexRange& range : ranges)
-            dome_meshes[screen].draw_triangles(range.first, range.count);
+            dome_meshes[screen].draw(range);
     };
     clouds->bind(screen);
-    clouds->use_dome(channels[index], clip_from_mesh, frame.enu_from_mesh(), frame.dome().share());
+    clouds->use_dome(drawn(index), clip_from_mesh, frame.enu_from_mesh(), frame.dome().share());
     gl::set_clip_distances(3);
     for (int i = 0; i < kOctants; ++i) {
         const Octant octant = octant_of(i, frame.enu_from_mesh());
         const auto ranges =
-            frame.dome().visible(clip_from_mesh, octant.sides, {.first = sea_rows}, Marked::kYes);
+            frame.dome().visible(shown_from_mesh, octant.sides, {.first = sea_rows}, Marked::kYes);
         if (ranges.empty()) continue;
         clouds->take(octant);
         draw_ranges(ranges);
@@ -191,7 +282,7 @@ void Renderer::Impl::draw_clouded_dome(std::size_t index, const glm::dmat4& clip
     // Waves are drawn already.
     clouds->use_over(clip_from_mesh, frame.enu_from_mesh());
     gl::set_blend(gl::Blend::kOver);
-    draw_ranges(frame.dome().visible(clip_from_mesh, {.end = sea_rows}, Marked::kYes));
+    draw_ranges(frame.dome().visible(shown_from_mesh, {.end = sea_rows}, Marked::kYes));
     gl::set_blend(gl::Blend::kReplace);
 }
 
@@ -199,7 +290,7 @@ void Renderer::Impl::prepare_clouds() {
     report.cloud_rays = 0;
     report.cloud_tiles = 0;
     if (!frame.clouds().shown()) return;
-    if (!clouds) clouds = std::make_unique<CloudPass>(screens.distinct.size());
+    if (!clouds) clouds = std::make_unique<CloudPass>(screens.distinct.size(), placement);
     clouds->prepare(frame.clouds(), display.dither);
     report.cloud_rays = frame.clouds().map().rays_marched() + frame.clouds().map().near_rays();
     report.cloud_tiles = frame.clouds().toned().size();
@@ -229,11 +320,12 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     m.scene = scene;
     m.pixel_rad = finest_pixel_rad(m.channels, scene.channel_views());
     m.frame.prepare(scene, m.pixel_rad, smallest_pixel_sr(m.channels, scene.channel_views()));
+    m.measure_warps();
     m.upload_dome();
     m.prepare_clouds();
-    if (m.frame.sea_rows() > 0) m.sea.prepare(m.frame, m.display.dither);
+    if (m.frame.sea_rows() > 0) m.sea.prepare(m.frame, m.display.dither, m.longest_edge_rad);
     if (m.frame.light().milky_way.map != nullptr)
-        m.milky_way.prepare(m.frame.milky_way(), m.frame.light(), m.display.dither);
+        m.milky_way.prepare(m.frame.milky_way(), m.frame.light(), m.display.dither, m.longest_edge_rad);
     m.report.stars_drawn = 0;
     if (m.frame.plan().needs(Pass::kStars)) {
         m.stars.prepare(scene, m.frame, m.pixel_rad);
@@ -265,14 +357,14 @@ void Renderer::Impl::draw_sky(std::size_t channel) {
     const glm::dmat4 clip = clip_from_enu(channel);
     // Discs are prepared for one screen at a time: rigs of like screens pay for it once a frame.
     if (discs_screen != screen) prepare_discs(screen);
-    targets[channel].bind();
     gl::set_blend(gl::Blend::kReplace);
     draw_dome(channel, clip);
     gl::set_blend(gl::Blend::kAdd);
     if (frame.light().milky_way.map != nullptr)
-        milky_way.draw(frame.milky_way(), channels[channel], screen, clip, shown_clouds());
+        milky_way.draw(frame.milky_way(), drawn(channel), screen, clip, shown_from_clip(channel),
+                       shown_clouds());
     if (plan.needs(Pass::kStars))
-        stars.draw(channels[channel], scene.views[channel], tone32(channel), shown_clouds());
+        stars.draw(drawn(channel), scene.views[channel], tone32(channel), shown_clouds());
     if (plan.needs(Pass::kCorona)) corona.draw(glm::mat4{clip});
 }
 
@@ -288,13 +380,14 @@ void Renderer::Impl::draw_wet(std::size_t channel, const DeferredInput& input) {
         wet = std::make_unique<WetPass>();
         wet->prepare(scene, frame.light());
     }
-    wet->draw(channels[channel], scene.views[channel], tone32(channel), input);
+    wet->draw(drawn(channel), scene.views[channel], tone32(channel), input);
 }
 
 void Renderer::draw(std::size_t channel) {
     Impl& m = *impl_;
     if (!m.shows(channel)) return;
     const glm::mat4 clip{m.clip_from_enu(channel)};
+    m.begin(channel, m.channels[channel].drawing == WarpDrawing::kResampled);
     m.draw_sky(channel);
     if (m.report.plan.needs(Pass::kMoonGlare)) m.moon_glare.draw(clip);
     m.draw_discs(channel);
@@ -303,7 +396,7 @@ void Renderer::draw(std::size_t channel) {
     gl::set_blend(gl::Blend::kAdd);
     // Over the Moon too, when it stands before the Sun.
     if (m.report.plan.needs(Pass::kSunGlare)) m.sun_glare.draw_around(clip);
-    gl::finish();
+    m.finish(channel);
 }
 
 void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
@@ -317,6 +410,7 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
         m.deferred = std::make_unique<DeferredPass>();
         m.refresh_deferred();
     }
+    m.begin(channel, true);
     m.draw_sky(channel);
     m.draw_discs(channel);
     gl::set_blend(gl::Blend::kReplace);
@@ -331,7 +425,7 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
     gl::set_blend(gl::Blend::kAdd);
     if (m.report.plan.needs(Pass::kMoonGlare)) m.moon_glare.draw_around(clip);
     if (m.report.plan.needs(Pass::kSunGlare)) m.sun_glare.draw_around(clip);
-    gl::finish();
+    m.finish(channel);
 }
 
 unsigned Renderer::texture(std::size_t channel) const noexcept {
