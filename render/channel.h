@@ -72,8 +72,8 @@ struct ImagePlane {
 /// a warp where the screen's pixels are finest.
 [[nodiscard]] double pixel_angle_rad(const Channel& channel, const Frustum& frustum) noexcept;
 
-/// Longest edge of a triangle, radians, whose straight image in a warped channel is off by no more than half
-/// a pixel, nor 0.02 deg where that is more than a quarter; 2..180 deg, the latter without a warp.
+/// Longest edge of a triangle, radians, whose straight image in a warped channel is off by no more than some
+/// 0.03 deg, 0.15 to 0.7 pixels; 2..180 deg, the latter without a warp.
 [[nodiscard]] double longest_edge_rad(const Channel& channel, const Frustum& frustum) noexcept;
 
 /// Whether anything can be seen through a frustum.

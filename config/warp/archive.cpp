@@ -74,6 +74,7 @@ FileRead<Archive> Archive::open(Bytes bytes) {
     }
     zip_error_fini(&error);
     const zip_int64_t entries = zip_get_num_entries(handle->zip, 0);
+    if (entries == 0) return {std::nullopt, "is no whole ZIP archive: it has no entries"};
     if (entries > kMostEntries)
         return {std::nullopt, fmt::format("has {} entries, more than {}", entries, kMostEntries)};
     for (zip_int64_t i = 0; i < entries; ++i) {

@@ -8,9 +8,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "render/gl/draw.h"
-#include "render/night/star_catalogue.h"
-#include "render/refined_mesh.h"
+#include "tests/render/direction_dome.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/render/warps.h"
 
@@ -21,83 +19,6 @@ using namespace tests;
 
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
-
-double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) / kDegree;
-}
-
-// A dome of cells of 10 deg whose colours are its directions, drawn as the sky's own dome is.
-class DirectionDome {
-  public:
-    explicit DirectionDome(bool refines) : mesh_({3, 3, 3}, kCount, refines) {}
-
-    double worst_error_deg(const Channel& channel, const ChannelView& view, double longest_rad) {
-        place(longest_rad);
-        const gl::Program program("sky/dome.vert", "sky/dome.frag", gl::Placement::kWarped);
-        const WarpPass warps({&channel, 1});
-        gl::Framebuffer target(channel.width_px, channel.height_px, gl::PixelFormat::kRgba32F);
-        gl::set_common_state();
-        gl::set_blend(gl::Blend::kReplace);
-        target.bind();
-        warps.bind(0);
-        const ImagePlane p = image_plane(view.frustum);
-        const glm::dmat4 clip{
-            glm::dvec4{2.0 / (p.right - p.left), 0.0, 0.0, 0.0},
-            {0.0, 2.0 / (p.top - p.bottom), 0.0, 0.0},
-            {(p.right + p.left) / (p.right - p.left), (p.top + p.bottom) / (p.top - p.bottom), 0.0, -1.0},
-            glm::dvec4{0.0}};
-        program.set(program.uniform("u_clip_from_mesh"), glm::mat4{clip * glm::dmat4{view.view_from_enu}});
-        program.use();
-        mesh_.draw({0, indices_.size()});
-        std::vector<float> rgb(static_cast<std::size_t>(channel.width_px) *
-                               static_cast<std::size_t>(channel.height_px) * 3);
-        target.read_rgb32f(rgb);
-        return worst(channel, view, rgb);
-    }
-
-  private:
-    static constexpr std::uint32_t kColumns = 36;
-    static constexpr std::uint32_t kRows = 18;
-    static constexpr std::size_t kCount = std::size_t{kColumns + 1} * (kRows + 1);
-
-    void place(double longest_rad) {
-        std::vector<float> vertices;
-        indices_.clear();
-        for (std::uint32_t row = 0; row <= kRows; ++row) {
-            for (std::uint32_t column = 0; column <= kColumns; ++column) {
-                const glm::vec3 d{at(10.0 * row - 90.0, 10.0 * column)};
-                // Directions, and twice the same as a colour that never fades.
-                for (int copy = 0; copy < 3; ++copy)
-                    vertices.insert(vertices.end(), {d.x, d.y, d.z});
-                if (row == kRows || column == kColumns) continue;
-                const std::uint32_t low = row * (kColumns + 1) + column;
-                for (const std::uint32_t i : {0U, 1U, kColumns + 1, kColumns + 1, 1U, kColumns + 2})
-                    indices_.push_back(low + i);
-            }
-        }
-        mesh_.set_triangles(indices_, vertices, longest_rad);
-    }
-
-    static double worst(const Channel& channel, const ChannelView& view, const std::vector<float>& rgb) {
-        double worst_deg = 0.0;
-        for (int y = 0; y < channel.height_px; ++y) {
-            for (int x = 0; x < channel.width_px; ++x) {
-                const float* d =
-                    &rgb[(static_cast<std::size_t>(y) * static_cast<std::size_t>(channel.width_px) +
-                          static_cast<std::size_t>(x)) *
-                         3];
-                const glm::dvec3 truth =
-                    glm::transpose(view.view_from_enu) *
-                    view_direction(channel, view.frustum, x + 0.5, channel.height_px - y - 0.5);
-                worst_deg = std::max(worst_deg, angle_deg({d[0], d[1], d[2]}, truth));
-            }
-        }
-        return worst_deg;
-    }
-
-    RefinedMesh mesh_;
-    std::vector<std::uint32_t> indices_;
-};
 
 class WarpedPicture : public GlTest {};
 
@@ -112,18 +33,29 @@ TEST_F(WarpedPicture, EveryPixelShowsTheDirectionThatTheWarpSays) {
     for (const auto& [yaw, pitch, roll] :
          {std::array{0.0, 0.0, 0.0}, {33.0, 25.0, 10.0}, {200.0, -60.0, 80.0}}) {
         const glm::dmat3 view = view_from_enu(yaw, pitch, roll);
-        const auto error_deg = [&](const Channel& channel, const Frustum& frustum, bool refines) {
+        const auto error_deg = [&](const Channel& channel, const Frustum& frustum, bool refines,
+                                   const auto& truth) {
             DirectionDome dome(refines);
-            return dome.worst_error_deg(channel, {frustum, view}, longest_edge_rad(channel, frustum));
+            return dome.worst_error_deg(channel, {frustum, view}, longest_edge_rad(channel, frustum), truth);
+        };
+        const auto flat = [](const Frustum& frustum) {
+            return [plane = image_plane(frustum)](const glm::dvec2& screen) {
+                return glm::dvec3{glm::mix(plane.left, plane.right, screen.x),
+                                  glm::mix(plane.bottom, plane.top, screen.y), -1.0};
+            };
+        };
+        const auto on = [](const CurvedScreen& screen) {
+            return [screen](const glm::dvec2& place) { return screen.direction(place); };
         };
         const Channel identity = warped_channel(identity_warp(kWidth, kHeight));
         const Channel bent = warped_channel(curved.warp(kWidth, kHeight));
         const Channel far = warped_channel(wide.warp(kWidth, kHeight));
-        const double plain_deg = error_deg(identity, curved.frustum(), true);
-        const double off_axis_deg = error_deg(identity, {-0.2, 0.8, -0.1, 0.6}, true);
-        const double bent_deg = error_deg(bent, curved.frustum(), true);
-        const double wide_deg = error_deg(far, wide.frustum(), true);
-        const double coarse_deg = error_deg(bent, curved.frustum(), false);
+        const Frustum off_axis{-0.2, 0.8, -0.1, 0.6};
+        const double plain_deg = error_deg(identity, curved.frustum(), true, flat(curved.frustum()));
+        const double off_axis_deg = error_deg(identity, off_axis, true, flat(off_axis));
+        const double bent_deg = error_deg(bent, curved.frustum(), true, on(curved));
+        const double wide_deg = error_deg(far, wide.frustum(), true, on(wide));
+        const double coarse_deg = error_deg(bent, curved.frustum(), false, on(curved));
         std::printf(
             "worst pixel: identity %.5f deg, off axis %.5f, curved %.4f, curved 100 deg %.4f, "
             "curved without refinement %.3f\n",
