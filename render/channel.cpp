@@ -41,7 +41,7 @@ double longest_edge_rad(const Channel& channel, const Frustum& frustum) noexcept
     if (!channel.warp) return std::numbers::pi;
     const ImagePlane plane = image_plane(frustum);
     const double side = std::min(plane.right - plane.left, plane.top - plane.bottom);
-    const double error_px = std::clamp(0.03 * kDegree / pixel_angle_rad(channel, frustum), 0.15, 0.7);
+    const double error_px = std::clamp(0.04 * kDegree / pixel_angle_rad(channel, frustum), 0.15, 1.0);
     // In the corner that is farthest off the axis the image plane stretches most.
     const double x = std::max(std::abs(plane.left), std::abs(plane.right));
     const double y = std::max(std::abs(plane.bottom), std::abs(plane.top));

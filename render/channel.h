@@ -73,7 +73,7 @@ struct ImagePlane {
 [[nodiscard]] double pixel_angle_rad(const Channel& channel, const Frustum& frustum) noexcept;
 
 /// Longest edge of a triangle, radians, whose straight image in a warped channel is off by no more than some
-/// 0.03 deg, 0.15 to 0.7 pixels; 2..180 deg, the latter without a warp.
+/// 0.04 deg, 0.15 to 1 pixels; 2..180 deg, the latter without a warp.
 [[nodiscard]] double longest_edge_rad(const Channel& channel, const Frustum& frustum) noexcept;
 
 /// Whether anything can be seen through a frustum.
