@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "config/overlay.h"
+#include "config/pattern.h"
 #include "config/screen.h"
 #include "config/warp/maps.h"
 #include "config/window.h"
@@ -51,6 +53,10 @@ struct Channel {
     int group_id = 0;
     /// Its own, what it leaves out taken from [display]; not given: that of [display].
     std::optional<Screen> display;
+    /// Shown in place of the sky until the host asks for another.
+    Pattern pattern = Pattern::kOff;
+    /// Its own, what it leaves out taken from [overlay]; not given: that of [overlay].
+    std::optional<Overlay> overlay;
     /// Where it is shown; given for all channels where there are windows.
     std::optional<Viewport> viewport;
     /// Null: the screen shows the frustum's flat picture.

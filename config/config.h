@@ -10,6 +10,7 @@
 #include "config/channel.h"
 #include "config/host.h"
 #include "config/night.h"
+#include "config/overlay.h"
 #include "config/screen.h"
 #include "config/sky.h"
 #include "config/source.h"
@@ -180,6 +181,8 @@ struct Config {
     Display display;
     Quality quality;
     Eye eye;
+    /// Of all channels that have none of their own.
+    Overlay overlay;
     Output output;
     /// At most kMaxWindows; with OutputKind::kWindow one at least.
     std::vector<Window> windows;
@@ -217,6 +220,9 @@ struct LoadResult {
 
 /// Everything at its default and one channel "centre", 1280x1024, 60 degrees wide.
 [[nodiscard]] Config default_config();
+
+/// All channels start with this one of kPatternNames; another name changes nothing.
+void show_pattern(Config& config, std::string_view pattern) noexcept;
 
 /// "site.toml:12:9: display.gamma: ..."
 [[nodiscard]] std::string to_text(const ConfigError& error);

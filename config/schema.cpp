@@ -159,13 +159,16 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_display(root.table("display"), config.display);
     read_quality(root.table("quality"), config.quality);
     read_eye(root.table("eye"), config.eye);
+    TableReader overlay = root.table("overlay");
+    read_overlay(overlay, config.overlay);
+    overlay.finish();
     read_output(root.table("output"), config.output);
     read_record(root.table("record"), config.record);
     TableReader status = root.table("status");
     read_status(status, config.status);
     read_preview(root.table("preview"), config.preview);
     read_windows(root, errors, config.windows);
-    read_channels(root, errors, config.display, config.windows, config.channels);
+    read_channels(root, errors, config);
     place_channels(errors, config);
     root.finish();
     return config;

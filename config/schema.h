@@ -62,10 +62,12 @@ void read_viewport(TableReader& table, ErrorList& errors, const std::vector<Wind
 /// where they tell of some.
 void place_channels(ErrorList& errors, Config& config);
 
-/// Reads the [[channel]] tables and checks them against one another. \param usual  screen that theirs are
-/// variants of \param windows  that they may lie in
-void read_channels(TableReader& root, ErrorList& errors, const Screen& usual,
-                   const std::vector<Window>& windows, std::vector<Channel>& channels);
+/// Reads what [overlay] and [channel.overlay] hold; what is left out stays.
+void read_overlay(TableReader& table, Overlay& overlay);
+
+/// Reads the [[channel]] tables into `config`, whose [display], [overlay] and windows are read, and checks
+/// them against one another.
+void read_channels(TableReader& root, ErrorList& errors, Config& config);
 
 /// 1..32 of letters, digits, '-' and '_': fit for a part of a file's name.
 [[nodiscard]] bool is_short_name(std::string_view text) noexcept;

@@ -29,6 +29,34 @@ glm::dvec3 view_direction(const Channel& channel, const Frustum& frustum, double
     return glm::normalize(glm::dvec3{x, y, -1.0});
 }
 
+namespace {
+
+/// Sides of pixels that repeat: the picture need not be a whole number of them wide.
+void widen(double low_rad, double& high_rad, int picture_px, int drawn_px) noexcept {
+    if (drawn_px == picture_px) return;
+    const double low = std::tan(low_rad);
+    high_rad = std::atan(low + (std::tan(high_rad) - low) * drawn_px / picture_px);
+}
+
+}  // namespace
+
+DrawnView drawn_view(int width_px, int height_px, const ChannelView& view) noexcept {
+    const Showing& showing = view.showing;
+    if (showing.parallel) {
+        const ImagePlane p = image_plane(view.frustum);
+        const double across_rad = std::atan(0.5 * (p.right - p.left) / width_px);
+        const double upright_rad = std::atan(0.5 * (p.top - p.bottom) / height_px);
+        return {1, 1, {-across_rad, across_rad, -upright_rad, upright_rad}, width_px, height_px};
+    }
+    const int across = std::clamp(showing.repeat_across, 1, Showing::kMostRepeated);
+    const int upright = std::clamp(showing.repeat_upright, 1, Showing::kMostRepeated);
+    DrawnView drawn{(width_px + across - 1) / across, (height_px + upright - 1) / upright, view.frustum,
+                    across, upright};
+    widen(drawn.frustum.left_rad, drawn.frustum.right_rad, width_px, drawn.width_px * across);
+    widen(drawn.frustum.bottom_rad, drawn.frustum.top_rad, height_px, drawn.height_px * upright);
+    return drawn;
+}
+
 double pixel_angle_rad(const Channel& channel, const Frustum& frustum) noexcept {
     const ImagePlane plane = image_plane(frustum);
     return std::max((plane.right - plane.left) / channel.width_px,

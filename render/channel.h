@@ -9,6 +9,7 @@
 #include <string>
 
 #include "render/display.h"
+#include "render/pattern/pattern.h"
 
 namespace skyig::render {
 
@@ -38,6 +39,8 @@ struct Channel {
     int height_px = 0;
     /// Its own; not given: that of the rig's DisplaySettings.
     std::optional<Screen> screen = {};
+    /// Screen pixels to a pixel of the font in texts over its picture, 1..kMaxTextScale.
+    int text_scale = 2;
     /// Null: the screen shows the frustum's flat picture. \see warp/warp.h
     std::shared_ptr<const warp::Warp> warp = {};
     WarpDrawing drawing = WarpDrawing::kDirect;
@@ -47,10 +50,33 @@ struct Channel {
     std::shared_ptr<const warp::Blend> blend = {};
 };
 
-/// Where a channel looks in one frame. The view frame is x right, y up, -z along the view axis.
+/// How what is drawn of a view becomes its channel's picture.
+struct Showing {
+    bool mirrored_across = false;   ///< left and right change places
+    bool mirrored_upright = false;  ///< top and bottom do
+    /// Each drawn pixel fills so many of the picture, 1..kMostRepeated.
+    int repeat_across = 1;
+    int repeat_upright = 1;
+    /// Parallel lines of sight. The sky is infinitely far: all of them end at one point of it, that of the
+    /// view axis, and what one pixel of the frustum would see there fills the picture.
+    bool parallel = false;
+
+    static constexpr int kMostRepeated = 2;
+    /// Nothing is done to the picture.
+    [[nodiscard]] bool plain() const noexcept { return *this == Showing{}; }
+    friend bool operator==(const Showing&, const Showing&) = default;
+};
+
+/// Where a channel looks in one frame, and what it shows of it. The view frame is x right, y up, -z along the
+/// view axis.
 struct ChannelView {
     Frustum frustum;
     glm::dmat3 view_from_enu{1.0};
+    Showing showing = {};
+    /// Not kOff: this in place of the sky.
+    Pattern pattern = Pattern::kOff;
+    /// Which lines of Scene::overlay lie over it. \see Overlay
+    std::uint8_t overlay = 0;
 };
 
 /// The extents of the image plane at distance 1: x in [left, right], y in [bottom, top].
@@ -67,6 +93,18 @@ struct ImagePlane {
 /// the lower left pixel, so that pixel (i, j) has its centre at (i + 0.5, j + 0.5); as its warp shows it.
 [[nodiscard]] glm::dvec3 view_direction(const Channel& channel, const Frustum& frustum, double x_px,
                                         double y_px) noexcept;
+
+/// Pixels that are drawn of a channel, and through which frustum, so that Showing makes its picture of them.
+struct DrawnView {
+    int width_px = 0;
+    int height_px = 0;
+    Frustum frustum;
+    /// Pixels of the picture that one of them fills, from the lower left corner; what reaches beyond is cut
+    /// off.
+    int repeat_across = 1;
+    int repeat_upright = 1;
+};
+[[nodiscard]] DrawnView drawn_view(int width_px, int height_px, const ChannelView& view) noexcept;
 
 /// Angle between neighbouring pixel centres on the view axis, the larger of the two directions, radians; with
 /// a warp where the screen's pixels are finest.

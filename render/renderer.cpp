@@ -8,16 +8,20 @@
 #include <utility>
 
 #include "render/blend_pass.h"
+#include "render/channel_pictures.h"
 #include "render/cloud_pass.h"
 #include "render/deferred_pass.h"
 #include "render/discs.h"
 #include "render/eye/tone_curve.h"
 #include "render/gl/debug_log.h"
 #include "render/gl/draw.h"
-#include "render/gl/framebuffer.h"
 #include "render/gl/program.h"
 #include "render/glare_pass.h"
 #include "render/milky_way_pass.h"
+#include "render/overlay/overlay_text.h"
+#include "render/overlay/text_pass.h"
+#include "render/pattern/pattern_text.h"
+#include "render/pattern_pass.h"
 #include "render/precipitation_pass.h"
 #include "render/refined_mesh.h"
 #include "render/screens.h"
@@ -80,12 +84,13 @@ struct Renderer::Impl {
           display(display_settings),
           pixels_hold(target),
           screens(screens_of(channels, display_settings)),
+          pictures(channels, pixel_format(target)),
+          shows_screen(target == Target::kDisplay),
+          target_format(pixel_format(target)),
           flat_pictures(channels.size()),
           blend(channels, display_settings.dither),
           frame(display_settings, quality, screens.distinct, target) {
         display.dither = display.dither && target == Target::kDisplay;
-        for (const Channel& channel : channels)
-            targets.emplace_back(channel.width_px, channel.height_px, pixel_format(target));
         for (const Channel& channel : channels)
             flat_channels.push_back(flat_picture_of(channel));
         for (std::size_t i = 0; i < screens.distinct.size(); ++i)
@@ -99,10 +104,15 @@ struct Renderer::Impl {
     void finish(std::size_t channel);
     /// What the channel that is begun draws into.
     [[nodiscard]] const Channel& drawn(std::size_t channel) const noexcept {
-        return draws_flat ? flat_channels[channel] : channels[channel];
+        return draws_flat ? flat_channels[channel] : pictures.drawn(channel);
     }
     [[nodiscard]] glm::dmat4 shown_from_clip(std::size_t channel) const noexcept;
     void measure_warps();
+    [[nodiscard]] bool shows_pattern(std::size_t channel) const noexcept {
+        return shows_screen && scene.views[channel].pattern != Pattern::kOff;
+    }
+    void draw_pattern(std::size_t channel);
+    void write_texts(std::size_t channel);
     void upload_dome();
     void prepare_discs(std::size_t screen);
     void prepare_moon(std::size_t screen);
@@ -119,6 +129,7 @@ struct Renderer::Impl {
     [[nodiscard]] shaders32::ToneParameters tone32(std::size_t channel) const {
         return eye::single_precision(frame.tone(screens.of_channel[channel]));
     }
+    void draw_world(std::size_t channel);
     void draw_sky(std::size_t channel);
     void draw_discs(std::size_t channel);
     void draw_wet(std::size_t channel, const DeferredInput& input);
@@ -128,7 +139,9 @@ struct Renderer::Impl {
     Target pixels_hold;
     Screens screens;
     gl::DebugLog log;
-    std::vector<gl::Framebuffer> targets;
+    ChannelPictures pictures;
+    bool shows_screen;  // else light itself
+    gl::PixelFormat target_format;
     std::vector<Channel> flat_channels;
     std::vector<std::optional<gl::Framebuffer>> flat_pictures;  // once one is resampled
     gl::Placement placement = placement_of(channels);
@@ -153,6 +166,8 @@ struct Renderer::Impl {
     GlarePass moon_glare{placement};
     std::unique_ptr<DeferredPass> deferred;  // once a scene is drawn
     std::unique_ptr<WetPass> wet;            // once a wet one is
+    std::unique_ptr<PatternPass> patterns;   // once one is shown
+    std::unique_ptr<TextPass> texts;         // once there are any
 
     // The frame in hand.
     SkyFrame frame;
@@ -167,24 +182,27 @@ struct Renderer::Impl {
 
 void Renderer::Impl::begin(std::size_t channel, bool flat) {
     draws_flat = flat && channels[channel].warp;
+    pictures.begin(channel);
     if (!draws_flat) {
         warps.bind(channel);
-        targets[channel].bind();
         return;
     }
     std::optional<gl::Framebuffer>& picture = flat_pictures[channel];
     const Channel& size = flat_channels[channel];
-    if (!picture) picture.emplace(size.width_px, size.height_px, pixel_format(pixels_hold));
+    if (!picture) picture.emplace(size.width_px, size.height_px, target_format);
     warps.bind_flat();
     picture->bind();
 }
 
+/// From what is drawn to the picture.
 void Renderer::Impl::finish(std::size_t channel) {
     if (draws_flat) {
-        targets[channel].bind();
+        pictures.begin(channel);
         warps.resample(channel, *flat_pictures[channel]);
     }
-    if (pixels_hold == Target::kDisplay) blend.draw(channel, targets[channel], tone32(channel).encode_power);
+    pictures.finish(channel);
+    if (shows_screen) blend.draw(channel, pictures.whole(channel), tone32(channel).encode_power);
+    if (shows_pattern(channel) || (shows_screen && scene.views[channel].overlay != 0)) write_texts(channel);
     gl::finish();
 }
 
@@ -198,8 +216,25 @@ void Renderer::Impl::measure_warps() {
     for (std::size_t i = 0; i < channels.size(); ++i) {
         if (!shows(i) || channels[i].drawing == WarpDrawing::kResampled) continue;
         longest_edge_rad =
-            std::min(longest_edge_rad, render::longest_edge_rad(channels[i], scene.views[i].frustum));
+            std::min(longest_edge_rad, render::longest_edge_rad(pictures.drawn(i), pictures.view(i).frustum));
     }
+}
+
+void Renderer::Impl::draw_pattern(std::size_t channel) {
+    if (!patterns) patterns = std::make_unique<PatternPass>(placement);
+    gl::set_blend(gl::Blend::kReplace);
+    patterns->draw(drawn(channel), pictures.view(channel), clip_from_enu(channel),
+                   screens.distinct[screens.of_channel[channel]], channel);
+}
+
+void Renderer::Impl::write_texts(std::size_t channel) {
+    if (!texts) texts = std::make_unique<TextPass>();
+    texts->clear();
+    const Channel& picture = channels[channel];
+    write_pattern_text(*texts, picture, scene.views[channel]);
+    write_overlay(*texts, picture, scene.overlay, scene.views[channel].overlay, frame.adaptation_cd_m2());
+    gl::set_blend(gl::Blend::kCoverage);
+    texts->draw(picture.width_px, picture.height_px);
 }
 
 void Renderer::Impl::upload_dome() {
@@ -297,7 +332,7 @@ void Renderer::Impl::prepare_clouds() {
 }
 
 void Renderer::Impl::refresh_deferred() {
-    deferred->prepare(frame.air_between(scene), display.dither);
+    deferred->prepare(frame.air_between(scene), frame.clouds(), frame.ground_shadow(), display.dither);
 }
 
 Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality,
@@ -315,11 +350,20 @@ void Renderer::draw_clouds(Clouds clouds) {
     impl_->frame.draw_clouds(std::move(clouds));
 }
 
+const eye::Adaptation& Renderer::adaptation() const noexcept {
+    return impl_->frame.adaptation();
+}
+
+void Renderer::adapt_as(const eye::Adaptation& eyes) noexcept {
+    impl_->frame.adapt_as(eyes);
+}
+
 const FrameReport& Renderer::prepare(const Scene& scene) {
     Impl& m = *impl_;
     m.scene = scene;
-    m.pixel_rad = finest_pixel_rad(m.channels, scene.channel_views());
-    m.frame.prepare(scene, m.pixel_rad, smallest_pixel_sr(m.channels, scene.channel_views()));
+    m.pictures.take(scene);
+    m.pixel_rad = finest_pixel_rad(m.pictures.drawn(), m.pictures.views());
+    m.frame.prepare(scene, m.pixel_rad, smallest_pixel_sr(m.pictures.drawn(), m.pictures.views()));
     m.measure_warps();
     m.upload_dome();
     m.prepare_clouds();
@@ -347,7 +391,7 @@ bool Renderer::Impl::shows(std::size_t channel) const noexcept {
 }
 
 glm::dmat4 Renderer::Impl::clip_from_enu(std::size_t channel) const noexcept {
-    const ChannelView& view = scene.views[channel];
+    const ChannelView& view = pictures.view(channel);
     return clip_from_view(view.frustum) * glm::dmat4{view.view_from_enu};
 }
 
@@ -364,7 +408,7 @@ void Renderer::Impl::draw_sky(std::size_t channel) {
         milky_way.draw(frame.milky_way(), drawn(channel), screen, clip, shown_from_clip(channel),
                        shown_clouds());
     if (plan.needs(Pass::kStars))
-        stars.draw(drawn(channel), scene.views[channel], tone32(channel), shown_clouds());
+        stars.draw(drawn(channel), pictures.view(channel), tone32(channel), shown_clouds());
     if (plan.needs(Pass::kCorona)) corona.draw(glm::mat4{clip});
 }
 
@@ -380,45 +424,62 @@ void Renderer::Impl::draw_wet(std::size_t channel, const DeferredInput& input) {
         wet = std::make_unique<WetPass>();
         wet->prepare(scene, frame.light());
     }
-    wet->draw(drawn(channel), scene.views[channel], tone32(channel), input);
+    wet->draw(drawn(channel), pictures.view(channel), tone32(channel), input);
 }
 
 void Renderer::draw(std::size_t channel) {
     Impl& m = *impl_;
     if (!m.shows(channel)) return;
-    const glm::mat4 clip{m.clip_from_enu(channel)};
     m.begin(channel, m.channels[channel].drawing == WarpDrawing::kResampled);
-    m.draw_sky(channel);
-    if (m.report.plan.needs(Pass::kMoonGlare)) m.moon_glare.draw(clip);
-    m.draw_discs(channel);
-    if (m.report.plan.needs(Pass::kPrecipitation))
-        m.precipitation.draw(m.scene.views[channel], m.tone32(channel));
+    if (m.shows_pattern(channel))
+        m.draw_pattern(channel);
+    else
+        m.draw_world(channel);
+    m.finish(channel);
+}
+
+std::uint64_t Renderer::gl_errors() {
+    return impl_->log.errors();
+}
+
+void Renderer::cross_out(std::size_t channel) {
+    impl_->pictures.cross_out(channel);
+    gl::finish();
+}
+
+void Renderer::Impl::draw_world(std::size_t channel) {
+    const glm::mat4 clip{clip_from_enu(channel)};
+    draw_sky(channel);
+    if (report.plan.needs(Pass::kMoonGlare)) moon_glare.draw(clip);
+    draw_discs(channel);
+    if (report.plan.needs(Pass::kPrecipitation)) precipitation.draw(pictures.view(channel), tone32(channel));
     gl::set_blend(gl::Blend::kAdd);
     // Over the Moon too, when it stands before the Sun.
-    if (m.report.plan.needs(Pass::kSunGlare)) m.sun_glare.draw_around(clip);
-    m.finish(channel);
+    if (report.plan.needs(Pass::kSunGlare)) sun_glare.draw_around(clip);
 }
 
 void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
     Impl& m = *impl_;
-    if (!(input.far_m > 0.0)) {
+    if (!m.shows(channel)) return;
+    if (!(input.far_m > 0.0) || m.shows_pattern(channel)) {
         draw(channel);
         return;
     }
-    if (!m.shows(channel)) return;
     if (!m.deferred) {
         m.deferred = std::make_unique<DeferredPass>();
+        m.frame.serve_things();
+        m.prepare_clouds();
         m.refresh_deferred();
     }
     m.begin(channel, true);
     m.draw_sky(channel);
     m.draw_discs(channel);
     gl::set_blend(gl::Blend::kReplace);
-    m.deferred->draw(m.scene.views[channel], input, m.tone32(channel));
+    m.deferred->draw(m.pictures.view(channel), input, m.tone32(channel));
     gl::set_blend(gl::Blend::kCoverage);
     if (m.report.plan.needs(Pass::kWetThings)) m.draw_wet(channel, input);
     if (m.report.plan.needs(Pass::kPrecipitation)) {
-        m.precipitation.draw_before(m.scene.views[channel], m.tone32(channel), input);
+        m.precipitation.draw_before(m.pictures.view(channel), m.tone32(channel), input);
     }
     // Glare is in the eye: before things too.
     const glm::mat4 clip{m.clip_from_enu(channel)};
@@ -429,16 +490,15 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
 }
 
 unsigned Renderer::texture(std::size_t channel) const noexcept {
-    return channel < impl_->targets.size() ? impl_->targets[channel].texture() : 0U;
+    return impl_->pictures.texture(channel);
 }
 
 void Renderer::read_back(std::size_t channel, std::span<std::byte> rgba) {
-    if (channel < impl_->targets.size()) impl_->targets[channel].read_rgba8(rgba);
+    impl_->pictures.read_back(channel, rgba);
 }
 
 void Renderer::read_luminance(std::size_t channel, std::span<float> rgb_cd_m2) {
-    if (channel >= impl_->targets.size()) return;
-    impl_->targets[channel].read_rgb32f(rgb_cd_m2);
+    impl_->pictures.read_light(channel, rgb_cd_m2);
     const auto unit_cd_m2 = static_cast<float>(std::exp2(-impl_->frame.exposure_exponent()));
     for (float& value : rgb_cd_m2)
         value *= unit_cd_m2;
@@ -457,7 +517,11 @@ glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu, double di
     const shaders64::ToneParameters& tone = impl_->frame.tone();
     const DeferredAir* air = impl_->frame.air_between();
     if (air == nullptr) return shaders64::shown(rgb_cd_m2, tone);
-    return shaders64::shown(air->under_air(rgb_cd_m2, direction_enu, distance_m), tone);
+    const glm::dvec3 lit_cd_m2 =
+        rgb_cd_m2 * impl_->frame.ground_shadow().on_thing(direction_enu * distance_m);
+    const glm::dvec3 seen_cd_m2 = air->under_air(lit_cd_m2, direction_enu, distance_m);
+    return shaders64::shown(impl_->frame.clouds().before_thing(*air, seen_cd_m2, direction_enu, distance_m),
+                            tone);
 }
 
 }  // namespace skyig::render

@@ -14,6 +14,7 @@
 #include "render/dome.h"
 #include "render/eye/adaptation.h"
 #include "render/glare.h"
+#include "render/ground_shadow.h"
 #include "render/light_tables.h"
 #include "render/milky_way.h"
 #include "render/plan.h"
@@ -70,6 +71,12 @@ class SkyFrame {
     /// k of what a target of luminance holds, light times 2^k. \see eye::exposure_exponent()
     [[nodiscard]] int exposure_exponent() const noexcept { return exposure_exponent_; }
     [[nodiscard]] double adaptation_cd_m2() const noexcept { return adaptation_.luminance_cd_m2(); }
+    [[nodiscard]] const eye::Adaptation& adaptation() const noexcept { return adaptation_; }
+    /// Before the first prepare(). \see Renderer::adapt_as()
+    void adapt_as(const eye::Adaptation& eyes) noexcept {
+        adaptation_ = eyes;
+        adaptation_.resume();
+    }
     [[nodiscard]] const sky::AirTables& air() const noexcept { return tables_.air(); }
     [[nodiscard]] const LightTables& tables() const noexcept { return tables_; }
     [[nodiscard]] const DisplaySettings& display(std::size_t screen = 0) const noexcept {
@@ -82,6 +89,7 @@ class SkyFrame {
         return moon_glares_[screen];
     }
     [[nodiscard]] const CloudFrame& clouds() const noexcept { return clouds_; }
+    [[nodiscard]] const GroundShadow& ground_shadow() const noexcept { return ground_shadow_; }
     /// What is seen of light that stands behind the clouds, in a direction that a view sees. The same without
     /// clouds.
     [[nodiscard]] glm::dvec3 through_clouds(const glm::dvec3& behind_cd_m2,
@@ -92,6 +100,8 @@ class SkyFrame {
     [[nodiscard]] const DeferredAir* air_between() const noexcept {
         return air_between_ ? &*air_between_ : nullptr;
     }
+    /// From this frame on things stand among the clouds.
+    void serve_things() noexcept;
     [[nodiscard]] Dome& dome() noexcept { return dome_; }
     [[nodiscard]] const Dome& dome() const noexcept { return dome_; }
     [[nodiscard]] MilkyWay& milky_way() noexcept { return milky_way_; }
@@ -165,6 +175,7 @@ class SkyFrame {
     cloud::CloudLight cloud_light_;
     std::optional<DeferredAir> air_between_;
     bool air_between_fresh_ = false;
+    GroundShadow ground_shadow_;
     CloudFrame clouds_;
     MilkyWay milky_way_;
     bool milky_way_shown_ = false;

@@ -260,12 +260,13 @@ void write_report(const std::string& path, const RunReport& report) {
 }
 
 std::unique_ptr<GlPainter> make_painter(const DaemonOptions& options, const config::Config& config) {
-    if (options.headless || config.output.kind != config::OutputKind::kWindow)
-        return std::make_unique<GlPainter>(render_channels(config), display_settings(config),
-                                           quality(config));
-    return std::make_unique<GlPainter>(
-        std::make_unique<render::output::Desktop>(window_layouts(config), config.output.vsync),
-        render_channels(config), display_settings(config), quality(config));
+    GlSeatSettings settings{
+        .channels = render_channels(config), .display = display_settings(config), .quality = quality(config)};
+    if (!options.headless && config.output.kind == config::OutputKind::kWindow) {
+        settings.windows = window_layouts(config);
+        settings.vsync = config.output.vsync;
+    }
+    return std::make_unique<GlPainter>(std::move(settings));
 }
 
 void run(const DaemonOptions& options, const config::Config& config,

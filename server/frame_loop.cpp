@@ -44,6 +44,7 @@ FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, 
       scenes_(ephemeris_model(config), std::move(orientation), sky_settings(config.sky),
               ground_settings(config.ground), night_settings(config.night),
               weather::weather_settings(config.weather)),
+      overlay_(config),
       times_(config.channels.size()) {}
 
 void FrameLoop::warm_up() {
@@ -71,7 +72,8 @@ bool FrameLoop::run_frame() {
     const std::uint64_t arrivals_before = inbox_.arrivals();
     parts_.wire.drain(inbox_);
     parts_.world.advance(static_cast<double>(slot.slots) * parts_.pace.period_s());
-    const render::Scene scene = scenes_.build(parts_.world, frame_number_);
+    render::Scene scene = scenes_.build(parts_.world, frame_number_);
+    overlay_.write(parts_.world, slot.slots, scene);
     status::FrameParts times;
     times.start_ns = start_ns;
     Stopwatch stopwatch(parts_.clock, start_ns);
@@ -118,6 +120,7 @@ void FrameLoop::answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns) {
 
 void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::FrameParts& times) {
     parts_.painter.prepare(scene);
+    tell_resets();
     times.shared_ns = stopwatch.lap_ns();
     times_.shared().add(times.shared_ns);
     for (std::size_t channel = 0; channel < config_.channels.size(); ++channel) {
@@ -126,6 +129,31 @@ void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::F
         times_.channel(channel).add(took_ns);
         times.channels_ns += took_ns;
     }
+    tell_channels();
+}
+
+void FrameLoop::tell_channels() {
+    for (std::size_t channel = 0; channel < config_.channels.size(); ++channel) {
+        const status::ChannelHealth health = parts_.painter.health(channel);
+        if (health.failed == told_failed_[channel]) continue;
+        told_failed_[channel] = health.failed;
+        const std::string& name = config_.channels[channel].name;
+        if (health.failed) {
+            parts_.log.limited({"channel failed", channel}, kRepeatAfter_s, Severity::kWarning,
+                               "channel {} cannot be drawn: {}; it is crossed out in red and tried again",
+                               name, health.reason());
+        } else {
+            parts_.log.limited({"channel drawn", channel}, kRepeatAfter_s, Severity::kNotice,
+                               "channel {} is drawn again, after {} failures since the start", name,
+                               health.failures);
+        }
+    }
+}
+
+void FrameLoop::tell_resets() {
+    if (parts_.painter.resets() == told_resets_) return;
+    told_resets_ = parts_.painter.resets();
+    parts_.log.warning("the graphics device was reset: everything is made anew on it");
 }
 
 void FrameLoop::hash_images() {

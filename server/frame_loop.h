@@ -1,6 +1,7 @@
 // One frame after the other: answer the host, take what it has sent, move the world, draw, write pictures.
 #pragma once
 
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -14,6 +15,7 @@
 #include "server/image_writer.h"
 #include "server/inbox.h"
 #include "server/log.h"
+#include "server/overlay_text.h"
 #include "server/pace.h"
 #include "server/painter.h"
 #include "server/preview.h"
@@ -79,6 +81,8 @@ class FrameLoop {
     void answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns);
     void draw(const render::Scene& scene, Stopwatch& stopwatch, status::FrameParts& times);
     void hand_out_images();
+    void tell_resets();
+    void tell_channels();
     void hash_images();
     void watch(const FramePacer::Slot& slot);
     void tell_late_frames();
@@ -99,6 +103,7 @@ class FrameLoop {
     Answers answers_;
     Inbox inbox_;
     SceneBuilder scenes_;
+    OverlayText overlay_;
     FrameTimes times_;
     status::FrameRecord record_;
 
@@ -118,7 +123,10 @@ class FrameLoop {
     };
     Watched watched_;
     std::vector<std::byte> read_back_;
+    /// Channels of which it has been said that they cannot be drawn.
+    std::bitset<config::kMaxChannels> told_failed_;
     /// What has been said of the date, until it is said anew.
+    std::uint64_t told_resets_ = 0;
     bool told_clamped_ = false;
     bool told_leap_seconds_ = false;
     protocol::transport::UdpCounters told_wire_;

@@ -75,10 +75,13 @@ void FrameLoop::take_stock(status::Snapshot& snapshot) const {
     snapshot.frame = times_of(times_.frame());
     for (std::size_t i = 0; i < config_.channels.size(); ++i)
         snapshot.channels[i] = times_of(times_.channel(i));
+    for (std::size_t i = 0; i < config_.channels.size(); ++i)
+        snapshot.health[i] = parts_.painter.health(i);
     snapshot.pass_count = parts_.painter.passes(snapshot.passes);
     snapshot.start_of_frame_sent = start_of_frame_sent_;
     snapshot.start_of_frame_failed = start_of_frame_failed_;
     snapshot.gl_errors = parts_.painter.gl_errors();
+    snapshot.gl_resets = parts_.painter.resets();
     if (parts_.images != nullptr) {
         const ImageWriter::Counts images = parts_.images->counts();
         snapshot.images_written = images.written;

@@ -12,6 +12,7 @@ namespace skyig::server {
 static_assert(config::kMaxChannels == render::kMaxChannels);
 static_assert(static_cast<int>(config::WarpDrawing::kResampled) ==
               static_cast<int>(render::WarpDrawing::kResampled));
+static_assert(config::kMaxTextScale == render::kMaxTextScale);
 
 ephemeris::UtcClockTime start_time(const config::Start& start, const Clock& clock) {
     constexpr std::int64_t kNsPerSecond = 1'000'000'000;
@@ -71,6 +72,7 @@ std::vector<render::Channel> render_channels(const config::Config& config) {
         made.drawing = static_cast<render::WarpDrawing>(channel.warp_drawing);
         made.render_scale = channel.render_scale;
         made.blend = blend_of(channel);
+        made.text_scale = channel.overlay.value_or(config.overlay).scale;
     }
     return channels;
 }

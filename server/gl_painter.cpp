@@ -1,59 +1,112 @@
 #include "server/gl_painter.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include "render/clouds.h"
+#include "render/gl/debug_log.h"
 
 namespace skyig::server {
 
-// A debug context costs nothing that can be measured here, and every GL error is then counted.
-GlPainter::GlPainter(std::vector<render::Channel> channels, const render::DisplaySettings& display,
-                     const render::Quality& quality, render::Target target)
-    : headless_(std::make_unique<render::gl::HeadlessContext>(render::gl::HeadlessContext::create(true))),
-      renderer_(std::move(channels), display, quality, target) {}
+GlPainter::GlPainter(GlSeatSettings settings)
+    : settings_(std::move(settings)),
+      guards_(settings_.channels.size()),
+      errors_to_make_(settings_.channels.size()) {
+    sit_down();
+}
 
-GlPainter::GlPainter(std::unique_ptr<render::output::Desktop> desktop, std::vector<render::Channel> channels,
-                     const render::DisplaySettings& display, const render::Quality& quality)
-    : desktop_(std::move(desktop)), renderer_(std::move(channels), display, quality) {
-    for (std::size_t i = 0; i < renderer_.channels().size(); ++i) {
-        const render::Channel& channel = renderer_.channels()[i];
-        shown_.push_back({renderer_.texture(i), channel.width_px, channel.height_px});
-    }
+void GlPainter::sit_down() {
+    seat_ = std::make_unique<GlSeat>(settings_);
+    description_ = seat_->description();
+    draws_clouds_ = false;
+    if (eyes_) seat_->renderer().adapt_as(*eyes_);
+}
+
+void GlPainter::leave_lost_device() noexcept {
+    eyes_ = seat_->renderer().adaptation();
+    errors_before_ += std::exchange(errors_, 0);
+    seat_.reset();
+    ++resets_;
+    frames_to_retry_ = 0;
 }
 
 void GlPainter::draw_clouds() {
-    if (draws_clouds_) return;
-    renderer_.draw_clouds(render::scene_clouds());
+    clouds_wanted_ = true;
+    if (draws_clouds_ || !seat_) return;
+    seat_->renderer().draw_clouds(render::scene_clouds());
     draws_clouds_ = true;
 }
 
 void GlPainter::prepare(const render::Scene& scene) {
-    if (scene.weather.cloud_count > 0) draw_clouds();
-    const render::FrameReport& report = renderer_.prepare(scene);
+    if (seat_ && seat_->resets().lost()) leave_lost_device();
+    if (seat_) {
+        prepare_seat(scene);
+    } else if (frames_to_retry_-- <= 0) {
+        frames_to_retry_ = kRetryFrames;
+        try {
+            sit_down();
+            prepare_seat(scene);
+        } catch (const std::exception&) {
+            seat_.reset();  // The device is not back yet.
+        }
+    }
+}
+
+void GlPainter::prepare_seat(const render::Scene& scene) {
+    if (clouds_wanted_ || scene.weather.cloud_count > 0) draw_clouds();
+    const render::FrameReport& report = seat_->renderer().prepare(scene);
     passes_ = report.plan.passes;
-    gl_errors_ = report.gl_errors;
+    errors_ = report.gl_errors;
     adaptation_cd_m2_ = report.adaptation_cd_m2;
 }
 
 void GlPainter::draw(std::size_t channel) {
-    renderer_.draw(channel);
+    if (!seat_ || !guards_[channel].try_now()) return;
+    try {
+        try_to_draw(channel);
+    } catch (const std::exception& error) {
+        guards_[channel].failed(error.what());
+    }
+    if (guards_[channel].health().failed) seat_->renderer().cross_out(channel);
+}
+
+void GlPainter::try_to_draw(std::size_t channel) {
+    render::Renderer& renderer = seat_->renderer();
+    const std::uint64_t errors_before = renderer.gl_errors();
+    if (errors_to_make_[channel] > 0) {
+        --errors_to_make_[channel];
+        render::gl::inject_error();
+    }
+    renderer.draw(channel);
+    if (renderer.gl_errors() == errors_before)
+        guards_[channel].drawn();
+    else
+        guards_[channel].failed("OpenGL reported an error");
 }
 
 bool GlPainter::present() {
-    return !desktop_ || desktop_->present(shown_);
+    return !seat_ || seat_->present();
 }
 
 void GlPainter::read_back(std::size_t channel, std::span<std::byte> rgba) {
-    renderer_.read_back(channel, rgba);
+    if (seat_) {
+        seat_->renderer().read_back(channel, rgba);
+    } else {
+        std::fill(rgba.begin(), rgba.end(), std::byte{0});
+    }
 }
 
 void GlPainter::read_luminance(std::size_t channel, std::span<float> rgb_cd_m2) {
-    renderer_.read_luminance(channel, rgb_cd_m2);
+    if (seat_) {
+        seat_->renderer().read_luminance(channel, rgb_cd_m2);
+    } else {
+        std::fill(rgb_cd_m2.begin(), rgb_cd_m2.end(), 0.0F);
+    }
 }
 
-std::string GlPainter::description() const {
-    return desktop_ ? desktop_->description() : headless_->description();
+void GlPainter::inject_reset() noexcept {
+    if (seat_) seat_->resets().inject();
 }
 
 std::size_t GlPainter::passes(std::span<status::PassState> rows) const {

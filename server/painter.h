@@ -7,6 +7,7 @@
 #include <string>
 
 #include "render/scene.h"
+#include "server/status/channel_health.h"
 #include "server/status/pass_state.h"
 
 namespace skyig::server {
@@ -22,7 +23,8 @@ class Painter {
 
     /// The work that all channels of this frame share. Never throws, allocates nothing in steady state.
     virtual void prepare(const render::Scene& scene) = 0;
-    /// Draws one channel of the prepared frame; its pixels are finished on return.
+    /// Draws one channel of the prepared frame; its pixels are finished on return. One that cannot be drawn
+    /// shows that it could not, is told of by health(), and leaves the others as they are. Never throws.
     virtual void draw(std::size_t channel) = 0;
     /// The drawn channels go where people see them. \return false once nobody wants to see them any more
     virtual bool present() { return true; }
@@ -31,6 +33,9 @@ class Painter {
 
     /// GL errors since start-up, as of the last prepare().
     [[nodiscard]] virtual std::uint64_t gl_errors() const = 0;
+    /// How often the graphics device was lost and all was made anew on it.
+    [[nodiscard]] virtual std::uint64_t resets() const { return 0; }
+    [[nodiscard]] virtual status::ChannelHealth health(std::size_t /*channel*/) const { return {}; }
     /// One luminance that all channels of the last frame are adapted to, cd/m2.
     [[nodiscard]] virtual double adaptation_cd_m2() const = 0;
     /// The plan of the last frame into `rows`, as many as there is room for. \return how many

@@ -91,6 +91,7 @@ std::string to_table(const RunReport& report) {
                    report.date_clamped ? "; the date is brought into 1900..2100" : "",
                    report.leap_seconds_assumed ? "; leap seconds are held at the last announced" : "");
     if (report.gl_errors > 0) fmt::format_to(out, "GL errors       {}\n", report.gl_errors);
+    if (report.gl_resets > 0) fmt::format_to(out, "GL resets       {}\n", report.gl_resets);
     return text;
 }
 
@@ -131,6 +132,7 @@ nlohmann::ordered_json report_json(const RunReport& report) {
                       {"failed", report.images_failed},
                       {"frames_skipped", report.image_frames_skipped}};
     json["gl_errors"] = report.gl_errors;
+    json["gl_resets"] = report.gl_resets;
     json["ephemeris"] = {{"model", report.ephemeris},
                          {"earth_orientation", report.earth_orientation},
                          {"date_clamped", report.date_clamped},

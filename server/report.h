@@ -109,6 +109,7 @@ struct RunReport {
     /// Frames whose images were skipped because every buffer was under way.
     std::uint64_t image_frames_skipped = 0;
     std::uint64_t gl_errors = 0;
+    std::uint64_t gl_resets = 0;
 
     /// "series"
     std::string ephemeris;

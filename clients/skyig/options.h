@@ -58,6 +58,8 @@ struct StillOptions {
     std::optional<double> elevation_m;
     /// Of the day sky, in place of the settings' one.
     std::optional<config::SkyModel> sky_model;
+    /// Test pattern in place of the sky, one of config::kPatternNames; empty: as the settings say.
+    std::string pattern;
     /// Of the one channel without settings.
     int width_px = 1280;
     int height_px = 1024;

@@ -71,8 +71,10 @@ Picture write_picture(server::GlPainter& painter, const ShotOptions& options, co
 /// The same pictures as light.
 void write_luminance(const Still& still, const ShotOptions& options, std::vector<Picture>& pictures) {
     const config::Config& config = still.config;
-    server::GlPainter painter(server::render_channels(config), server::display_settings(config),
-                              server::quality(config), render::Target::kLuminance);
+    server::GlPainter painter({.channels = server::render_channels(config),
+                               .display = server::display_settings(config),
+                               .quality = server::quality(config),
+                               .target = render::Target::kLuminance});
     painter.prepare(still.scene);
     std::vector<float> rgb_cd_m2;
     for (std::size_t channel = 0; channel < pictures.size(); ++channel) {
@@ -91,8 +93,9 @@ void write_luminance(const Still& still, const ShotOptions& options, std::vector
 
 Shot draw_pictures(const Still& still, const ShotOptions& options, const server::Clock& clock) {
     const config::Config& config = still.config;
-    server::GlPainter painter(server::render_channels(config), server::display_settings(config),
-                              server::quality(config));
+    server::GlPainter painter({.channels = server::render_channels(config),
+                               .display = server::display_settings(config),
+                               .quality = server::quality(config)});
 
     const std::int64_t begin_ns = clock.monotonic_ns();
     painter.prepare(still.scene);

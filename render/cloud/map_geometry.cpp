@@ -19,10 +19,9 @@ glm::vec3 MapGeometry::direction(double column, double row, bool lower) const no
     return glm::vec3{upper.x, upper.y, lower ? -upper.z : upper.z};
 }
 
-Cone MapGeometry::cone(int tile) const noexcept {
-    const Texel at = corner(tile);
+Cone MapGeometry::cone(const Texel& at, int side) const noexcept {
     // One texel more on each side: what is interpolated, and the step to the next tile.
-    const auto place = [&](int step) { return -1.0 + (kTile + 1) * 0.25 * step; };
+    const auto place = [&](int step) { return -1.0 + (side + 1) * 0.25 * step; };
     std::array<glm::dvec3, 25> around{};
     glm::dvec3 sum{0.0};
     for (int i = 0; i < 25; ++i) {

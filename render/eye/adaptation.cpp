@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <numbers>
 
 #include "render/eye/thresholds.h"
@@ -94,7 +95,8 @@ double Adaptation::update(double target_cd_m2, double time_s, bool jump,
     const double step_s = time_s - time_s_;
     time_s_ = time_s;
     const double log_target = std::log10(target_cd_m2);
-    if (!started_ || jump || !(step_s >= 0.0) || step_s > kJump_s) {
+    const bool cut = !std::exchange(resumed_, false) && (jump || step_s > kJump_s);
+    if (!started_ || cut || !(step_s >= 0.0)) {
         started_ = true;
         log_cones_ = log_rods_ = log_target;
         luminance_cd_m2_ = target_cd_m2;

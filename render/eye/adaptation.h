@@ -70,12 +70,16 @@ class Adaptation {
     /// adapted to
     double update(double target_cd_m2, double time_s, bool jump, const DisplaySettings& display) noexcept;
 
+    /// The next step is taken as it is, however long and whatever has jumped: the eyes were there all along.
+    void resume() noexcept { resumed_ = true; }
+
     [[nodiscard]] double luminance_cd_m2() const noexcept { return luminance_cd_m2_; }
 
     static constexpr double kJump_s = 2.0;
 
   private:
     bool started_ = false;
+    bool resumed_ = false;
     double luminance_cd_m2_ = 1.0;
     double log_cones_ = 0.0;
     double log_rods_ = 0.0;

@@ -42,4 +42,8 @@ std::string DebugLog::first_message() const {
     return state_->first;
 }
 
+void inject_error() {
+    glEnable(GL_NONE);
+}
+
 }  // namespace skyig::render::gl

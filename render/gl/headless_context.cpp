@@ -1,5 +1,6 @@
 #include "render/gl/headless_context.h"
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
@@ -19,7 +20,16 @@ bool has_extension(const char* list, const char* name) {
     return list != nullptr && std::strstr(list, name) != nullptr;
 }
 
+/// libepoxy ends the program when a function is called whose library is not there.
+void require_egl() {
+    constexpr const char* kLibrary = "libEGL.so.1";
+    void* library = dlopen(kLibrary, RTLD_LAZY | RTLD_LOCAL);
+    if (library == nullptr) throw std::runtime_error(std::string("no ") + kLibrary + ": " + kInstallHint);
+    dlclose(library);
+}
+
 EGLDisplay open_display() {
+    require_egl();
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!has_extension(client, "EGL_EXT_platform_base") ||
         !has_extension(client, "EGL_MESA_platform_surfaceless")) {
@@ -35,24 +45,50 @@ EGLDisplay open_display() {
     return display;
 }
 
+enum class Resets { kTold, kUntold };
+
+EGLContext create_context(EGLDisplay display, bool debug, Resets resets) {
+    const EGLint attributes[] = {
+        EGL_CONTEXT_MAJOR_VERSION,
+        4,
+        EGL_CONTEXT_MINOR_VERSION,
+        5,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+        EGL_CONTEXT_OPENGL_DEBUG,
+        debug ? EGL_TRUE : EGL_FALSE,
+        resets == Resets::kTold ? EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY : EGL_NONE,
+        EGL_LOSE_CONTEXT_ON_RESET,
+        EGL_NONE};
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+}
+
+/// What the driver has instead, for people: "OpenGL 3.1 Mesa 22.3.6, VMware SVGA".
+std::string best_there_is(EGLDisplay display) {
+    EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, nullptr);
+    if (context == EGL_NO_CONTEXT) return "no OpenGL at all";
+    std::string found = "an OpenGL that cannot be made current";
+    if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) != EGL_FALSE) {
+        found = "OpenGL " + context_text();
+        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+    eglDestroyContext(display, context);
+    return found;
+}
+
 }  // namespace
 
 HeadlessContext HeadlessContext::create(bool debug) {
     HeadlessContext result;
     result.display_ = open_display();
     if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) throw std::runtime_error("EGL offers no desktop OpenGL");
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                 4,
-                                 EGL_CONTEXT_MINOR_VERSION,
-                                 5,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 EGL_CONTEXT_OPENGL_DEBUG,
-                                 debug ? EGL_TRUE : EGL_FALSE,
-                                 EGL_NONE};
-    EGLContext context = eglCreateContext(result.display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-    if (context == EGL_NO_CONTEXT)
-        throw std::runtime_error("no OpenGL 4.5 core context: the driver is too old");
+    // Not every driver can tell of resets.
+    EGLContext context = create_context(result.display_, debug, Resets::kTold);
+    if (context == EGL_NO_CONTEXT) context = create_context(result.display_, debug, Resets::kUntold);
+    if (context == EGL_NO_CONTEXT) {
+        throw std::runtime_error("an OpenGL 4.5 core context is needed, the driver has " +
+                                 best_there_is(result.display_));
+    }
     result.context_ = context;
     if (eglMakeCurrent(result.display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE) {
         throw std::runtime_error("OpenGL context cannot be made current without a surface");

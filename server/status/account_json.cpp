@@ -105,6 +105,18 @@ Json authority_json(const Account& account) {
     return json;
 }
 
+Json channels_json(const Account& account) {
+    Json json = Json::array();
+    for (std::size_t i = 0; i < account.facts.channels.size(); ++i) {
+        const ChannelHealth& health = account.snapshot.health[i];
+        json.push_back({{"name", account.facts.channels[i]},
+                        {"failed", health.failed},
+                        {"failures", health.failures},
+                        {"last_failure", health.reason()}});
+    }
+    return json;
+}
+
 Json plan_json(const Snapshot& snapshot) {
     Json json = Json::array();
     for (std::size_t i = 0; i < snapshot.pass_count; ++i) {
@@ -138,6 +150,7 @@ std::string to_json(const Account& account) {
     for (std::size_t i = 0; i < account.facts.sources.size(); ++i)
         json["sources"].push_back(source_json(account, i));
     json["authority"] = authority_json(account);
+    json["channels"] = channels_json(account);
     json["plan"] = plan_json(account.snapshot);
     json["recorder"] = recorder_json(account.recorder);
     json["status_port"] = {{"connections", account.port.connections},

@@ -62,7 +62,16 @@ void add_frames(MetricsText& out, const Account& account) {
     out.family("skyig_pass_needed", "gauge", "Whether the last frame's plan needs the pass.");
     for (std::size_t i = 0; i < snapshot.pass_count; ++i)
         out.sample({{"pass", snapshot.passes[i].name}}, snapshot.passes[i].needed ? 1.0 : 0.0);
+    const auto& channels = account.facts.channels;
+    out.family("skyig_channel_failed", "gauge", "1 while the channel cannot be drawn.");
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        out.sample({{"channel", channels[i]}}, snapshot.health[i].failed ? 1.0 : 0.0);
+    out.family("skyig_channel_failures_total", "counter", "Times that the channel could not be drawn.");
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        out.sample({{"channel", channels[i]}}, number(snapshot.health[i].failures));
     counter(out, "skyig_gl_errors_total", "OpenGL errors.", snapshot.gl_errors);
+    counter(out, "skyig_gl_resets_total", "Resets of the graphics device, all made anew after each.",
+            snapshot.gl_resets);
 }
 
 void add_messages(MetricsText& out, const Account& account) {

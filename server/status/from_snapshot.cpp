@@ -75,6 +75,7 @@ RunReport make_report(const Facts& facts, const Snapshot& snapshot) {
     report.images_failed = snapshot.images_failed;
     report.image_frames_skipped = snapshot.image_frames_skipped;
     report.gl_errors = snapshot.gl_errors;
+    report.gl_resets = snapshot.gl_resets;
     report.ephemeris = facts.ephemeris;
     report.earth_orientation = facts.earth_orientation;
     report.date_clamped = snapshot.date_clamped;

@@ -24,6 +24,12 @@ Health health_of(const Facts& facts, const Snapshot& snapshot, std::int64_t now_
     const RecentFrames recent = snapshot.record.recent();
     if (recent.frames >= kFewFrames && 2 * recent.late > recent.frames)
         return {false, fmt::format("{} of the last {} frames were late", recent.late, recent.frames)};
+    for (std::size_t i = 0; i < facts.channels.size(); ++i) {
+        const ChannelHealth& channel = snapshot.health[i];
+        if (channel.failed)
+            return {false,
+                    fmt::format("channel {} cannot be drawn: {}", facts.channels[i], channel.reason())};
+    }
     return {true, "ok"};
 }
 

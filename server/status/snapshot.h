@@ -19,6 +19,7 @@
 #include "protocol/flightgear/net_fdm.h"
 #include "protocol/transport/udp.h"
 #include "server/ephemeris/time.h"
+#include "server/status/channel_health.h"
 #include "server/status/frame_record.h"
 #include "server/status/pass_state.h"
 #include "server/world/state.h"
@@ -80,6 +81,7 @@ struct Snapshot {
     Times shared;
     Times frame;
     std::array<Times, config::kMaxChannels> channels{};
+    std::array<ChannelHealth, config::kMaxChannels> health{};
 
     WorldState world;
     std::array<PassState, kMostPasses> passes{};
@@ -108,6 +110,7 @@ struct Snapshot {
     std::uint64_t images_failed = 0;
     std::uint64_t image_frames_skipped = 0;
     std::uint64_t gl_errors = 0;
+    std::uint64_t gl_resets = 0;
     bool date_clamped = false;
     bool leap_seconds_assumed = false;
 };

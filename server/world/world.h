@@ -146,6 +146,7 @@ class World {
     /// \return false when there is no such component
     [[nodiscard]] bool switch_sky(const protocol::cigi::ComponentControl& packet) noexcept;
     [[nodiscard]] bool switch_weather(const protocol::cigi::ComponentControl& packet) noexcept;
+    [[nodiscard]] bool switch_pattern(const protocol::cigi::ComponentControl& packet) noexcept;
     void raise(Event event, std::uint32_t data_1, std::uint32_t data_2) noexcept;
     /// False if another host of the same source has it.
     [[nodiscard]] bool claim_peer(const protocol::cigi::PacketInfo& info);

@@ -166,6 +166,12 @@ TEST(Skyigd, MissingDisplayIsOneLineAndStatusOne) {
                    "EGL");
 }
 
+TEST(Skyigd, AnOlderOpenGlIsNamed) {
+    const Site site;
+    expect_failure(skyigd({"--config", site.config_path}, {"MESA_GL_VERSION_OVERRIDE=3.3"}),
+                   "an OpenGL 4.5 core context is needed, the driver has OpenGL 3.3");
+}
+
 TEST(Skyigd, OpensWindowsWhereTheSettingsWantThemAndThereIsADesktop) {
     const Site site;
     const std::string windows =

@@ -153,6 +153,19 @@ void add_sources(Page& page, const Json& now, Before before) {
     }
 }
 
+void add_channels(Page& page, const Json& now, Before before) {
+    const Json& channels = now.at("channels");
+    const Before old = member(before, "channels");
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        if (channels[i].at("failures") == 0) continue;
+        const Before was = old != nullptr && i < old->size() ? &(*old)[i] : nullptr;
+        page.line("channel", "{}: {}, {} times not drawn, last: {}", text_of(channels[i].at("name")),
+                  channels[i].at("failed").get<bool>() ? "FAILED" : "drawn again",
+                  grown(channels[i].at("failures"), member(was, "failures")),
+                  text_of(channels[i].at("last_failure")));
+    }
+}
+
 void add_counts(Page& page, const Json& now, Before before) {
     page.line("packets", "{}", counts_text(now.at("packets"), member(before, "packets")));
     page.line("rejected", "{}", counts_text(now.at("rejects"), member(before, "rejects")));
@@ -166,6 +179,8 @@ void add_counts(Page& page, const Json& now, Before before) {
                   recorder.at("failed").get<bool>() ? "; WRITING FAILED" : "");
     }
     if (now.at("gl_errors") != 0) page.line("GL errors", "{}", now.at("gl_errors").get<std::uint64_t>());
+    if (now.value("gl_resets", 0U) != 0)
+        page.line("GL resets", "{}", now.at("gl_resets").get<std::uint64_t>());
 }
 
 }  // namespace
@@ -176,6 +191,7 @@ std::string page_text(const Json& now, const Json* before) {
     add_frames(page, now, before);
     add_world(page, now);
     add_sources(page, now, before);
+    add_channels(page, now, before);
     add_counts(page, now, before);
     return std::move(page).take();
 }

@@ -1,11 +1,12 @@
 #version 450 core
-// Another renderer's picture under our air: colour * passed + added, then the tone curve. Where it has drawn nothing, what
+// Another renderer's picture under our air: colour * passed + added, behind the clouds before it, then the tone curve. Where it has drawn nothing, what
 // is there stays.
 #include "common/scalar.glsl"
 #include "eye/tone.glsl"
 #include "common/dither.glsl"
 #include "sky/aerial.glsl"
 #include "fog/veil.glsl"
+#include "cloud/things.glsl"
 
 uniform ToneParameters u_tone;
 uniform AerialMap u_map;
@@ -146,6 +147,9 @@ void main() {
     vec3 colour = texelFetch(u_colour, pixel, 0).rgb;
     colour = vec3(clean(colour.r), clean(colour.g), clean(colour.b));
     float far_m = length(v_far_enu);
-    colour = under_air(colour, v_far_enu / far_m, max(depth, 0.0) * far_m);
+    vec3 view = v_far_enu / far_m;
+    float distance_m = max(depth, 0.0) * far_m;
+    colour = under_air(in_cloud_shadow(colour, view, distance_m), view, distance_m);
+    colour = behind_clouds(colour, view, distance_m);
     o_colour = vec4(dithered(shown(colour, u_tone), dot(gl_FragCoord.xy, kDitherStep)), 1.0);
 }

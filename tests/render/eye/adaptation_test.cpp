@@ -39,6 +39,19 @@ TEST(Adaptation, JumpsOfTheClockSnap) {
     EXPECT_DOUBLE_EQ(eye.update(7.0, std::nan(""), false, {}), 7.0);
 }
 
+TEST(Adaptation, ResumedEyesWentOnAdaptingHoweverLongAgoThatWas) {
+    Adaptation eye;
+    eye.update(100.0, 10.0, false, {});
+    Adaptation seen = eye;
+    for (int i = 1; i <= 300; ++i)
+        seen.update(1.0, 10.0 + 0.1 * i, false, {});
+    Adaptation resumed = eye;
+    resumed.resume();
+    EXPECT_NEAR(resumed.update(1.0, 40.0, true, {}), seen.luminance_cd_m2(), 1e-9);
+    // Once: the next leap snaps again.
+    EXPECT_DOUBLE_EQ(resumed.update(7.0, 50.0, true, {}), 7.0);
+}
+
 TEST(Adaptation, FrozenClockHoldsTheState) {
     Adaptation eye;
     eye.update(1.0, 100.0, false, {});

@@ -41,14 +41,18 @@ class FakePainter final : public Painter {
         std::fill(rgba.begin(), rgba.end(), static_cast<std::byte>(channel + 1));
     }
     std::uint64_t gl_errors() const override { return 0; }
+    std::uint64_t resets() const override { return device_resets; }
     double adaptation_cd_m2() const override { return 100.0; }
     std::size_t passes(std::span<status::PassState> rows) const override {
         rows[0] = {"dome", true, "always"};
         return 1;
     }
     std::string description() const override { return "fake"; }
+    status::ChannelHealth health(std::size_t /*channel*/) const override { return channel_health; }
 
+    status::ChannelHealth channel_health;
     render::Scene last_scene;
+    std::uint64_t device_resets = 0;
     std::int64_t prepare_ns = 1 * kMs;
     std::int64_t draw_ns = 2 * kMs;
 
@@ -259,6 +263,64 @@ TEST_F(FrameLoopTest, TurnsTheSkyByTheMeasuredEarth) {
     std::printf("half a second of UT1 turns the sky by %.2f arcsec\n", turned_arcsec);
     EXPECT_NEAR(turned_arcsec, 0.5 * 15.04, 1.6);
     EXPECT_GT(turned_arcsec, 4.0);
+}
+
+TEST_F(FrameLoopTest, TellsEachResetOfTheDeviceOnce) {
+    loop();
+    for (int i = 0; i < 3; ++i)
+        loop_->run_frame();
+    EXPECT_TRUE(lines_.empty()) << ::testing::PrintToString(lines_);
+    painter_.device_resets = 1;
+    for (int i = 0; i < 3; ++i)
+        loop_->run_frame();
+    ASSERT_EQ(lines_.size(), 1U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[0], HasSubstr("the graphics device was reset"));
+    EXPECT_EQ(loop_->report().gl_resets, 1U);
+}
+
+TEST_F(FrameLoopTest, NamesAChannelThatCannotBeDrawn) {
+    loop();
+    loop_->run_frame();
+    EXPECT_TRUE(lines_.empty()) << ::testing::PrintToString(lines_);
+    painter_.channel_health.failed = true;
+    painter_.channel_health.failures = 1;
+    painter_.channel_health.set_reason("out of wonders");
+    for (int i = 0; i < 20; ++i)
+        loop_->run_frame();
+    ASSERT_EQ(lines_.size(), 1U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[0], HasSubstr("channel centre cannot be drawn: out of wonders"));
+    EXPECT_TRUE(status_->newest().health[0].failed);
+    EXPECT_EQ(status_->newest().health[0].reason(), "out of wonders");
+    painter_.channel_health.failed = false;
+    loop_->run_frame();
+    ASSERT_EQ(lines_.size(), 2U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[1], HasSubstr("channel centre is drawn again, after 1 failures"));
+}
+
+TEST_F(FrameLoopTest, OverlayTellsModeRateAndTheHostThatIsLost) {
+    config_.overlay = {.mode = true, .rate = true, .host = true, .host_lost = true};
+    config_.host.lost_after_s = 0.5;
+    loop();
+    const render::Scene& scene = painter_.last_scene;
+    loop_->run_frame();
+    EXPECT_EQ(scene.views[0].overlay, 0b1111);
+    EXPECT_THAT(std::string(scene.overlay.lines[0].text()), HasSubstr("Standby 2026-06-21 12:00:00Z"));
+    EXPECT_EQ(scene.overlay.lines[1].text(), "100.0 Hz of 100, 0 left out");
+    EXPECT_EQ(scene.overlay.lines[2].text(), "host waiting");
+    EXPECT_TRUE(scene.overlay.warning.text().empty());
+    link_.put(kHost, Message(cigi::Version::k33, cigi::IgMode::kOperate, 1).bytes());
+    loop_->run_frame();
+    EXPECT_EQ(scene.overlay.lines[2].text(), "host 127.0.0.1:8005 live");
+    for (int i = 0; i < 100; ++i)
+        loop_->run_frame();
+    EXPECT_THAT(std::string(scene.overlay.lines[2].text()), HasSubstr("host 127.0.0.1:8005 lost"));
+    EXPECT_EQ(scene.overlay.warning.text(), "HOST LOST");
+    // Every frame takes two periods and a half: each third place of the grid is left out at least.
+    painter_.draw_ns = 24 * kMs;
+    for (int i = 0; i < 100; ++i)
+        loop_->run_frame();
+    std::printf("%s\n", std::string(scene.overlay.lines[1].text()).c_str());
+    EXPECT_THAT(std::string(scene.overlay.lines[1].text()), HasSubstr("40.0 Hz of 100"));
 }
 
 TEST_F(FrameLoopTest, StopsWhenAsked) {
