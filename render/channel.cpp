@@ -77,6 +77,16 @@ double longest_edge_rad(const Channel& channel, const Frustum& frustum) noexcept
     return std::clamp(longest, 2.0 * kDegree, std::numbers::pi);
 }
 
+double longest_direct_edge_rad(std::span<const Channel> channels,
+                               std::span<const ChannelView> views) noexcept {
+    double longest_rad = std::numbers::pi;
+    for (std::size_t i = 0; i < std::min(channels.size(), views.size()); ++i) {
+        if (channels[i].drawing == WarpDrawing::kResampled || !has_area(views[i].frustum)) continue;
+        longest_rad = std::min(longest_rad, longest_edge_rad(channels[i], views[i].frustum));
+    }
+    return longest_rad;
+}
+
 bool has_area(const Frustum& frustum) noexcept {
     return frustum.right_rad > frustum.left_rad && frustum.top_rad > frustum.bottom_rad;
 }

@@ -114,6 +114,10 @@ struct DrawnView {
 /// 0.04 deg, 0.15 to 1 pixels; 2..180 deg, the latter without a warp.
 [[nodiscard]] double longest_edge_rad(const Channel& channel, const Frustum& frustum) noexcept;
 
+/// The least of those that are drawn directly and have a view with an area.
+[[nodiscard]] double longest_direct_edge_rad(std::span<const Channel> channels,
+                                             std::span<const ChannelView> views) noexcept;
+
 /// Whether anything can be seen through a frustum.
 [[nodiscard]] bool has_area(const Frustum& frustum) noexcept;
 

@@ -28,7 +28,6 @@
 #include "render/sea_pass.h"
 #include "render/sky_frame.h"
 #include "render/star_pass.h"
-#include "render/warp/warp.h"
 #include "render/warp_pass.h"
 #include "render/wet_pass.h"
 
@@ -43,24 +42,6 @@ glm::dmat4 clip_from_view(const Frustum& frustum) {
     const double height = p.top - p.bottom;
     return {glm::dvec4{2.0 / width, 0.0, 0.0, 0.0}, glm::dvec4{0.0, 2.0 / height, 0.0, 0.0},
             glm::dvec4{(p.right + p.left) / width, (p.top + p.bottom) / height, 0.0, -1.0}, glm::dvec4{0.0}};
-}
-
-// What of a channel's flat picture may show, with a fiftieth to spare for edges that are drawn straight.
-glm::dmat4 shown_from_clip_of(const warp::Warp& warp) {
-    const glm::dvec2 low = 2.0 * glm::dvec2{warp.shown().x, warp.shown().y} - 1.0;
-    const glm::dvec2 high = 2.0 * glm::dvec2{warp.shown().z, warp.shown().w} - 1.0;
-    const glm::dvec2 scale = 2.0 / (1.04 * (high - low));
-    const glm::dvec2 shift = -0.5 * scale * (high + low);
-    return {glm::dvec4{scale.x, 0.0, 0.0, 0.0}, glm::dvec4{0.0, scale.y, 0.0, 0.0},
-            glm::dvec4{0.0, 0.0, 1.0, 0.0}, glm::dvec4{shift, 0.0, 1.0}};
-}
-
-// The flat picture of a channel that is resampled.
-Channel flat_picture_of(const Channel& channel) {
-    const auto scaled = [&](int size_px) {
-        return std::max(1, static_cast<int>(std::lround(channel.render_scale * size_px)));
-    };
-    return {channel.name, scaled(channel.width_px), scaled(channel.height_px)};
 }
 
 gl::PixelFormat pixel_format(Target target) {
@@ -107,7 +88,6 @@ struct Renderer::Impl {
         return draws_flat ? flat_channels[channel] : pictures.drawn(channel);
     }
     [[nodiscard]] glm::dmat4 shown_from_clip(std::size_t channel) const noexcept;
-    void measure_warps();
     [[nodiscard]] bool shows_pattern(std::size_t channel) const noexcept {
         return shows_screen && scene.views[channel].pattern != Pattern::kOff;
     }
@@ -208,16 +188,7 @@ void Renderer::Impl::finish(std::size_t channel) {
 
 glm::dmat4 Renderer::Impl::shown_from_clip(std::size_t channel) const noexcept {
     if (draws_flat || !channels[channel].warp) return glm::dmat4{1.0};
-    return shown_from_clip_of(*channels[channel].warp);
-}
-
-void Renderer::Impl::measure_warps() {
-    longest_edge_rad = std::numbers::pi;
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-        if (!shows(i) || channels[i].drawing == WarpDrawing::kResampled) continue;
-        longest_edge_rad =
-            std::min(longest_edge_rad, render::longest_edge_rad(pictures.drawn(i), pictures.view(i).frustum));
-    }
+    return warps.shown_from_clip(channel);
 }
 
 void Renderer::Impl::draw_pattern(std::size_t channel) {
@@ -364,7 +335,7 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     m.pictures.take(scene);
     m.pixel_rad = finest_pixel_rad(m.pictures.drawn(), m.pictures.views());
     m.frame.prepare(scene, m.pixel_rad, smallest_pixel_sr(m.pictures.drawn(), m.pictures.views()));
-    m.measure_warps();
+    m.longest_edge_rad = longest_direct_edge_rad(m.pictures.drawn(), m.pictures.views());
     m.upload_dome();
     m.prepare_clouds();
     if (m.frame.sea_rows() > 0) m.sea.prepare(m.frame, m.display.dither, m.longest_edge_rad);

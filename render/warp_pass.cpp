@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "render/gl/draw.h"
@@ -38,7 +39,23 @@ gl::Mesh screen_mesh(const warp::Warp& warp) {
     return mesh;
 }
 
+glm::dmat4 shown_from_clip_of(const warp::Warp& warp) {
+    const glm::dvec2 low = 2.0 * glm::dvec2{warp.shown().x, warp.shown().y} - 1.0;
+    const glm::dvec2 high = 2.0 * glm::dvec2{warp.shown().z, warp.shown().w} - 1.0;
+    const glm::dvec2 scale = 2.0 / (1.04 * (high - low));
+    const glm::dvec2 shift = -0.5 * scale * (high + low);
+    return {glm::dvec4{scale.x, 0.0, 0.0, 0.0}, glm::dvec4{0.0, scale.y, 0.0, 0.0},
+            glm::dvec4{0.0, 0.0, 1.0, 0.0}, glm::dvec4{shift, 0.0, 1.0}};
+}
+
 }  // namespace
+
+Channel flat_picture_of(const Channel& channel) {
+    const auto scaled = [&](int size_px) {
+        return std::max(1, static_cast<int>(std::lround(channel.render_scale * size_px)));
+    };
+    return {channel.name, scaled(channel.width_px), scaled(channel.height_px)};
+}
 
 gl::Placement placement_of(std::span<const Channel> channels) noexcept {
     const bool warped =
@@ -70,6 +87,10 @@ void WarpPass::bind(std::size_t channel) const {
     if (!bound) return;
     gl::bind_texture(kUnit, bound->nodes.name());
     bound->block.bind(kBinding);
+}
+
+glm::dmat4 WarpPass::shown_from_clip(std::size_t channel) const noexcept {
+    return shown_from_clip_of(*channels_[channel].warp);
 }
 
 void WarpPass::bind_flat() const {

@@ -18,6 +18,9 @@ namespace skyig::render {
 /// Of all programs of a rig: those of one without a warp do nothing for it.
 [[nodiscard]] gl::Placement placement_of(std::span<const Channel> channels) noexcept;
 
+/// The flat picture of a channel that is resampled.
+[[nodiscard]] Channel flat_picture_of(const Channel& channel);
+
 class WarpPass {
   public:
     /// \throws std::runtime_error when a texture cannot be made
@@ -26,6 +29,9 @@ class WarpPass {
     /// Until the next call everything is drawn as that channel shows it, or flat.
     void bind(std::size_t channel) const;
     void bind_flat() const;
+
+    /// What of a warped channel's flat picture may show, with a fiftieth to spare for edges drawn straight.
+    [[nodiscard]] glm::dmat4 shown_from_clip(std::size_t channel) const noexcept;
 
     /// Draws a finished flat picture as that channel shows it, over all of the framebuffer that is bound.
     /// The first call makes the program and may throw.

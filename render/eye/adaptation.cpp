@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+#include <numbers>
 
 #include "render/eye/thresholds.h"
 
