@@ -11,6 +11,7 @@
 #include "config/host.h"
 #include "config/night.h"
 #include "config/overlay.h"
+#include "config/pacing.h"
 #include "config/screen.h"
 #include "config/sky.h"
 #include "config/source.h"
@@ -29,11 +30,6 @@ struct UtcDateTime {
     double second = 0.0;
 
     friend bool operator==(const UtcDateTime&, const UtcDateTime&) = default;
-};
-
-struct Daemon {
-    /// Frames a second, 1..240.
-    double rate_hz = 60.0;
 };
 
 /// The world at start-up, and again each time the host puts the image generator into Standby.
@@ -168,6 +164,7 @@ struct Preview {
 
 struct Config {
     Daemon daemon;
+    Overload overload;
     Host host;
     /// At most kMaxSources.
     std::vector<Source> sources;

@@ -13,11 +13,6 @@ constexpr std::array<std::string_view, 3> kModelNames{"almanac", "erfa", "series
 constexpr std::array<std::string_view, 2> kSurfaceNames{"land", "sea"};
 constexpr std::array<std::string_view, 2> kOutputNames{"headless", "window"};
 
-void read_daemon(TableReader table, Daemon& daemon) {
-    table.number("rate_hz", daemon.rate_hz, {1.0, 240.0, "Hz"});
-    table.finish();
-}
-
 void read_utc(TableReader& table, std::optional<UtcDateTime>& utc) {
     const Value* value = table.any("utc");
     if (value == nullptr) return;
@@ -145,7 +140,9 @@ Config read_config(const Table& document, ErrorList& errors) {
     TableReader root(errors, &document, {}, {});
     read_version(root);
     read_preset(document, errors, config);
-    read_daemon(root.table("daemon"), config.daemon);
+    TableReader daemon = root.table("daemon");
+    read_daemon(daemon, config.daemon);
+    read_overload(root.table("overload"), config.overload);
     TableReader host = root.table("host");
     read_host(host, config.host);
     read_sources(root, errors, config.host, config.sources);
@@ -170,6 +167,7 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_windows(root, errors, config.windows);
     read_channels(root, errors, config);
     place_channels(errors, config);
+    check_pacing(daemon, config);
     root.finish();
     return config;
 }

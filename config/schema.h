@@ -16,6 +16,12 @@ void read_sources(TableReader& root, ErrorList& errors, const Host& host, std::v
 /// Reads [status].
 void read_status(TableReader& table, Status& status);
 
+/// Reads [daemon], [overload].
+void read_daemon(TableReader& table, Daemon& daemon);
+void read_overload(TableReader table, Overload& overload);
+/// Checks [daemon] against what it paces by, all being read.
+void check_pacing(TableReader& daemon, const Config& config);
+
 /// Refuses a layout of another version.
 void read_version(TableReader& root);
 

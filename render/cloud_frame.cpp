@@ -177,7 +177,7 @@ bool CloudFrame::serves(int tile, std::uint64_t tone_revision) const noexcept {
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const glm::vec3 moved_m = parts[k].offset_m - made.offsets_m[k];
         const float aside_m = glm::length(glm::cross(axis, moved_m));
-        if (aside_m * parts[k].snapshot->nearest_inverse(tile) * steps_a_rad > kStep) return false;
+        if (aside_m * parts[k].snapshot->nearest_inverse(tile) * steps_a_rad > steps_ * kStep) return false;
     }
     return true;
 }

@@ -46,6 +46,9 @@ class CloudFrame {
     void shade_ground(const GroundShadow* shadow) noexcept { shadow_ = shadow; }
     /// From now on things stand among the clouds: tones all again.
     void serve_things() noexcept;
+    /// By how many steps at once what is toned follows the eye, at least 1: a step moves no code by more than
+    /// half of one.
+    void step_by(float steps) noexcept { steps_ = steps; }
     /// Tones what has changed. \param tones  one for each screen \param light_revision  rises when the light
     /// has changed by what may show \param tone_revision  likewise \param flashes  that light the clouds
     void tone(const SkyLight& light, const DeferredAir& air, std::span<const shaders64::ToneParameters> tones,
@@ -127,6 +130,7 @@ class CloudFrame {
     std::vector<cloud::Cone> clouded_;
     std::vector<int> clouded_tiles_;
     std::size_t next_backdrop_ = 0;
+    float steps_ = 1.0F;
     std::uint64_t size_revision_ = 0;
 };
 

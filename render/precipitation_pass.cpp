@@ -41,9 +41,9 @@ PrecipitationPass::PrecipitationPass(gl::Placement placement)
     mesh_.set_indices(quads());
 }
 
-void PrecipitationPass::prepare(const Scene& scene, const SkyLight& light, double pixel_rad) {
+void PrecipitationPass::prepare(const Scene& scene, const SkyLight& light, double pixel_rad, double density) {
     pixel_rad_ = pixel_rad;
-    field_.update(scene);
+    field_.update(scene, density);
     const Surroundings around = surroundings(light);
     for (const auto& group : field_.groups())
         shown_[static_cast<std::size_t>(group.kind)] = shown_by(group.kind, around);

@@ -26,7 +26,8 @@ class PrecipitationPass {
     explicit PrecipitationPass(gl::Placement placement);
 
     /// Once a frame whose plan needs it. \param pixel_rad  of the finest channel: edges are softened over it
-    void prepare(const Scene& scene, const SkyLight& light, double pixel_rad);
+    /// \param density  of the streaks \see precipitation::StreakField::update()
+    void prepare(const Scene& scene, const SkyLight& light, double pixel_rad, double density = 1.0);
 
     /// Blends by coverage over whatever the channel holds, into the framebuffer that is bound.
     void draw(const ChannelView& view, const shaders32::ToneParameters& tone);

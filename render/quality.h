@@ -34,6 +34,24 @@ inline constexpr std::size_t kPassCount = 21;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 
+/// What a frame may leave out where it would else take too long. The numbers stand in recordings: new ones
+/// come last.
+enum class Thin {
+    kCloudRefresh,   ///< the cloud map is renewed at a third of its pace
+    kCloudMotion,    ///< its tiles follow the eye in steps four times as large
+    kDome,           ///< smooth light has four times its budget of errors
+    kStars,          ///< those of the faintest 1.5 magnitudes, and that others twinkle
+    kPrecipitation,  ///< half the streaks, each the more opaque
+    kWaves,          ///< resolved waves of the sea
+    kGlare,          ///< the veils round Sun and Moon
+    kMilkyWay,       ///< its structure: even starlight stays
+};
+inline constexpr std::size_t kThinCount = 8;
+using Thinned = std::bitset<kThinCount>;
+
+/// As the settings and the status write it: "cloud-refresh".
+[[nodiscard]] std::string_view thin_name(Thin thin) noexcept;
+
 /// How far the picture may be off, and what is done for measurements.
 struct Quality {
     /// Largest error that smooth light may have by being drawn coarser than pixel by pixel, 8-bit display
@@ -45,6 +63,8 @@ struct Quality {
     int cloud_tiles_a_frame = 12;
     /// Passes that run even where they would not show. With Pass::kStars no star is too faint.
     std::bitset<kPassCount> forced;
+    /// What is left out for the frame rate's sake.
+    Thinned thinned;
 };
 
 /// Step of luminance from one code to the next at middle grey on a display of gamma 2.2, percent.

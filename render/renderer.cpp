@@ -321,6 +321,10 @@ void Renderer::draw_clouds(Clouds clouds) {
     impl_->frame.draw_clouds(std::move(clouds));
 }
 
+void Renderer::thin(Thinned thinned) noexcept {
+    impl_->frame.thin(thinned);
+}
+
 const eye::Adaptation& Renderer::adaptation() const noexcept {
     return impl_->frame.adaptation();
 }
@@ -347,7 +351,8 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
         m.report.stars_drawn = m.stars.count();
     }
     if (m.frame.plan().needs(Pass::kPrecipitation))
-        m.precipitation.prepare(scene, m.frame.light(), m.pixel_rad);
+        m.precipitation.prepare(scene, m.frame.light(), m.pixel_rad,
+                                m.frame.plan().thins(Thin::kPrecipitation) ? kThinnedPrecipitation : 1.0);
     m.prepare_discs(0);
     if (m.deferred) m.refresh_deferred();
     if (m.wet && m.frame.plan().needs(Pass::kWetThings)) m.wet->prepare(scene, m.frame.light());

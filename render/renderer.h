@@ -50,6 +50,9 @@ class Renderer {
     /// From the next frame on the scene's weather has clouds.
     void draw_clouds(Clouds clouds);
 
+    /// What frames leave out from the next one on. \see render::thinnable()
+    void thin(Thinned thinned) noexcept;
+
     /// The eyes' state after the last frame; what a renderer made after a reset of the device goes on from.
     [[nodiscard]] const eye::Adaptation& adaptation() const noexcept;
     /// Before the first prepare(): its frame is adapted as if `eyes` had seen the frames before.

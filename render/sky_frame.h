@@ -52,6 +52,9 @@ class SkyFrame {
     /// From the next frame on.
     void draw_clouds(Clouds clouds) noexcept { made_clouds_ = std::move(clouds); }
 
+    /// What frames leave out from the next one on.
+    void thin(Thinned thinned) noexcept { quality_.thinned = thinned; }
+
     /// \param pixel_rad  angle of the finest pixel of the rig: edges are softened over it \param
     /// smallest_pixel_sr  of the rig, where stars show best. Allocates nothing in steady state. The first
     /// call builds all tables and may throw std::bad_alloc; later ones do not throw.
@@ -191,6 +194,7 @@ class SkyFrame {
     std::vector<ClippedLight> clipped_;
     double mesh_azimuth_rad_ = 0.0;
     double dome_error_codes_ = 0.0;
+    bool dome_thinned_ = false;
     std::uint64_t triangles_revision_ = 0;
     std::uint64_t vertices_revision_ = 0;
     sky::SeaWaves waves_;

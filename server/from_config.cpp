@@ -237,4 +237,26 @@ render::DisplaySettings display_settings(const config::Config& config) {
     return settings;
 }
 
+namespace {
+
+static_assert(config::kThinningNames.size() == render::kThinCount &&
+                  static_cast<int>(config::Thinning::kCloudRefresh) ==
+                      static_cast<int>(render::Thin::kCloudRefresh) &&
+                  static_cast<int>(config::Thinning::kCloudMotion) ==
+                      static_cast<int>(render::Thin::kCloudMotion) &&
+                  static_cast<int>(config::Thinning::kDome) == static_cast<int>(render::Thin::kDome) &&
+                  static_cast<int>(config::Thinning::kStars) == static_cast<int>(render::Thin::kStars) &&
+                  static_cast<int>(config::Thinning::kPrecipitation) ==
+                      static_cast<int>(render::Thin::kPrecipitation) &&
+                  static_cast<int>(config::Thinning::kWaves) == static_cast<int>(render::Thin::kWaves) &&
+                  static_cast<int>(config::Thinning::kGlare) == static_cast<int>(render::Thin::kGlare) &&
+                  static_cast<int>(config::Thinning::kMilkyWay) == static_cast<int>(render::Thin::kMilkyWay),
+              "one order of what can be left out in settings and plan");
+
+}  // namespace
+
+render::Thin thin_of(config::Thinning thinning) noexcept {
+    return static_cast<render::Thin>(thinning);
+}
+
 }  // namespace skyig::server

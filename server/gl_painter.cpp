@@ -6,6 +6,7 @@
 
 #include "render/clouds.h"
 #include "render/gl/debug_log.h"
+#include "render/gl/objects.h"
 
 namespace skyig::server {
 
@@ -55,8 +56,12 @@ void GlPainter::prepare(const render::Scene& scene) {
 
 void GlPainter::prepare_seat(const render::Scene& scene) {
     if (clouds_wanted_ || scene.weather.cloud_count > 0) draw_clouds();
+    seat_->renderer().thin(thinned_);
     const render::FrameReport& report = seat_->renderer().prepare(scene);
     passes_ = report.plan.passes;
+    thinnable_ = render::thinnable(report.plan);
+    rebuilt_ = report.plan.needs(render::Pass::kAirTables) || report.plan.needs(render::Pass::kSunSky) ||
+               report.plan.needs(render::Pass::kMoonSky);
     errors_ = report.gl_errors;
     adaptation_cd_m2_ = report.adaptation_cd_m2;
 }
@@ -107,6 +112,16 @@ void GlPainter::read_luminance(std::size_t channel, std::span<float> rgb_cd_m2) 
 
 void GlPainter::inject_reset() noexcept {
     if (seat_) seat_->resets().inject();
+}
+
+// Mesa names both of its software rasterisers.
+bool GlPainter::on_processor() const {
+    const std::string text = description();
+    return text.find("llvmpipe") != std::string::npos || text.find("softpipe") != std::string::npos;
+}
+
+std::size_t GlPainter::gl_objects() const {
+    return seat_ ? render::gl::count_objects() : 0;
 }
 
 std::size_t GlPainter::passes(std::span<status::PassState> rows) const {

@@ -22,6 +22,8 @@ class GlPainter final : public Painter {
     /// Clouds can be drawn from the next frame on. Called at the first scene that has some if it was not
     /// before: who must not be held up then for a quarter of a second calls it at the start.
     void draw_clouds();
+    void thin(render::Thinned thinned) override { thinned_ = thinned; }
+    [[nodiscard]] render::Thinned thinnable() const override { return thinnable_; }
     /// After a reset it takes as long as a start; while the device cannot be had it is asked for every
     /// kRetryFrames, and the channels keep what they show.
     void prepare(const render::Scene& scene) override;
@@ -31,6 +33,9 @@ class GlPainter final : public Painter {
     void read_back(std::size_t channel, std::span<std::byte> rgba) override;
     /// Of a target of luminance. \see render::Renderer::read_luminance()
     void read_luminance(std::size_t channel, std::span<float> rgb_cd_m2);
+    [[nodiscard]] bool rebuilt() const override { return rebuilt_; }
+    [[nodiscard]] bool on_processor() const override;
+    [[nodiscard]] std::size_t gl_objects() const override;
     [[nodiscard]] std::uint64_t gl_errors() const override { return errors_before_ + errors_; }
     [[nodiscard]] std::uint64_t resets() const override { return resets_; }
     [[nodiscard]] double adaptation_cd_m2() const override { return adaptation_cd_m2_; }
@@ -58,6 +63,9 @@ class GlPainter final : public Painter {
     std::unique_ptr<GlSeat> seat_;  // none while the device cannot be had
     std::string description_;
     std::array<render::PlannedPass, render::kPassCount> passes_{};
+    render::Thinned thinned_;
+    render::Thinned thinnable_;
+    bool rebuilt_ = false;
     /// What eyes were adapted to when the device was lost.
     std::optional<render::eye::Adaptation> eyes_;
     int frames_to_retry_ = 0;

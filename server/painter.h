@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "render/quality.h"
 #include "render/scene.h"
 #include "server/status/channel_health.h"
 #include "server/status/pass_state.h"
@@ -21,6 +22,10 @@ class Painter {
     Painter& operator=(Painter&&) = delete;
     virtual ~Painter() = default;
 
+    /// What frames leave out from the next one on.
+    virtual void thin(render::Thinned /*thinned*/) {}
+    /// What would make the next frame cheaper.
+    [[nodiscard]] virtual render::Thinned thinnable() const { return {}; }
     /// The work that all channels of this frame share. Never throws, allocates nothing in steady state.
     virtual void prepare(const render::Scene& scene) = 0;
     /// Draws one channel of the prepared frame; its pixels are finished on return. One that cannot be drawn
@@ -31,6 +36,12 @@ class Painter {
     /// RGBA, top row first, width * height * 4 bytes.
     virtual void read_back(std::size_t channel, std::span<std::byte> rgba) = 0;
 
+    /// Whether the last prepare() built tables anew.
+    [[nodiscard]] virtual bool rebuilt() const { return false; }
+    /// Whether pictures are drawn by the processor alone, so that its time bounds theirs.
+    [[nodiscard]] virtual bool on_processor() const { return false; }
+    /// GL objects that there are now; may take a millisecond.
+    [[nodiscard]] virtual std::size_t gl_objects() const { return 0; }
     /// GL errors since start-up, as of the last prepare().
     [[nodiscard]] virtual std::uint64_t gl_errors() const = 0;
     /// How often the graphics device was lost and all was made anew on it.

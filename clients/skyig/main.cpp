@@ -4,12 +4,15 @@
 #include <exception>
 #include <variant>
 
+#include "clients/instructor/instructor.h"
 #include "clients/skyig/bench.h"
 #include "clients/skyig/channels.h"
 #include "clients/skyig/cloud.h"
 #include "clients/skyig/decode.h"
 #include "clients/skyig/ephem.h"
+#include "clients/skyig/frame_rates.h"
 #include "clients/skyig/host.h"
+#include "clients/skyig/latency/latency.h"
 #include "clients/skyig/metar.h"
 #include "clients/skyig/options.h"
 #include "clients/skyig/plan.h"
@@ -33,7 +36,9 @@ int run(int argc, char** argv) {
     if (const auto* plan = std::get_if<PlanOptions>(&invocation.options)) return run_plan(*plan);
     if (const auto* channels = std::get_if<ChannelsOptions>(&invocation.options))
         return run_channels(*channels);
-    if (const auto* bench = std::get_if<BenchOptions>(&invocation.options)) return run_bench(*bench);
+    if (const auto* bench = std::get_if<BenchOptions>(&invocation.options))
+        return bench->family == "frame" ? run_frame_rates(*bench) : run_bench(*bench);
+    if (const auto* latency = std::get_if<LatencyOptions>(&invocation.options)) return run_latency(*latency);
     if (const auto* ephem = std::get_if<EphemOptions>(&invocation.options)) return run_ephem(*ephem);
     if (const auto* cloud = std::get_if<CloudOptions>(&invocation.options)) return run_cloud(*cloud);
     if (const auto* decode = std::get_if<DecodeOptions>(&invocation.options)) return run_decode(*decode);
@@ -43,6 +48,8 @@ int run(int argc, char** argv) {
     if (const auto* status = std::get_if<StatusOptions>(&invocation.options)) return run_status(*status);
     if (const auto* rvr = std::get_if<RvrOptions>(&invocation.options)) return run_rvr(*rvr);
     if (const auto* tone = std::get_if<ToneOptions>(&invocation.options)) return run_tone(*tone);
+    if (const auto* instructor = std::get_if<InstructorOptions>(&invocation.options))
+        return run_instructor(*instructor);
     if (const auto* sky = std::get_if<SkyOptions>(&invocation.options)) return run_sky(*sky);
     return invocation.exit_status;
 }

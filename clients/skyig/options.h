@@ -265,11 +265,37 @@ struct RvrOptions {
     bool json = false;
 };
 
+/// skyig latency: a host that flips an aircraft's attitude.
+struct LatencyOptions {
+    std::string to = "127.0.0.1:8004";
+    std::string listen = "127.0.0.1:8005";
+    double rate_hz = 58.3;
+    /// In each scene.
+    int flips = 200;
+    double settle_s = 3.0;
+    double wait_s = 10.0;
+    std::optional<double> at_most_frames;
+    bool json = false;
+};
+
+/// skyig instructor: the web station.
+struct InstructorOptions {
+    std::string daemon_status = "http://127.0.0.1:8006";
+    std::string cigi_to = "127.0.0.1:8010";
+    std::string listen = "127.0.0.1:8080";
+    /// Asked of every page where it is not empty; needed to listen on another address than loopback.
+    std::string token;
+    /// Names of a reverse proxy.
+    std::vector<std::string> names;
+    /// Where own presets are kept; "default": in the user's state folder; empty: in memory alone.
+    std::string saved_path = "default";
+};
+
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
     std::variant<std::monostate, HostOptions, ShotOptions, PlanOptions, ChannelsOptions, BenchOptions,
-                 EphemOptions, CloudOptions, DecodeOptions, MetarOptions, ReplayOptions, RecordOptions,
-                 SkyOptions, StatusOptions, ToneOptions, RvrOptions>
+                 EphemOptions, CloudOptions, LatencyOptions, DecodeOptions, MetarOptions, ReplayOptions,
+                 RecordOptions, SkyOptions, StatusOptions, ToneOptions, RvrOptions, InstructorOptions>
         options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)

@@ -17,14 +17,42 @@ Json recent_json(const RecentFrames& recent) {
             {"median_ms", recent.median_ms}, {"p95_ms", recent.p95_ms}, {"largest_ms", recent.largest_ms}};
 }
 
-Json late_json(const FrameRecord& record) {
-    Json json = Json::object();
-    for (std::size_t i = 0; i < kLateCauses; ++i)
-        json[std::string(kLateCauseNames[i])] = record.late(static_cast<LateCause>(i));
-    return json;
+Json overload_json(const Account& account) {
+    const Thinning& thinning = account.snapshot.thinning;
+    return {{"order", account.facts.thinning_order},   {"thinned", account.report.thinned},
+            {"times_thinned", thinning.times_thinned}, {"times_returned", thinning.times_returned},
+            {"exhausted", thinning.exhausted},         {"reason", thinning_reason(thinning)}};
 }
 
-Json world_json(const WorldState& world) {
+/// Heights above the ellipsoid. Zeros of visibility, aerosol and wind: told none.
+Json layer_json(const protocol::cigi::WeatherControl& layer) {
+    return {{"id", layer.layer_id},
+            {"enabled", layer.weather_enable},
+            {"cloud_type", static_cast<int>(layer.cloud_type)},
+            {"severity", layer.severity},
+            {"lightning", layer.random_lightning},
+            {"base_m", layer.base_elevation},
+            {"top_m", layer.base_elevation + layer.thickness},
+            {"bottom_band_m", layer.transition_band},
+            {"top_band_m", layer.top_transition_band},
+            {"coverage_pct", layer.coverage},
+            {"visibility_m", layer.visibility},
+            {"aerosol_g_m3", layer.aerosol},
+            {"wind_m_s", layer.wind_horizontal},
+            {"wind_from_deg", layer.wind_direction}};
+}
+
+Json weather_json(const Facts& facts, const WorldState& world) {
+    Json layers = Json::array();
+    for (std::size_t i = 0; i < world.layer_count; ++i)
+        layers.push_back(layer_json(world.layers[i]));
+    return {{"elevation_m", facts.elevation_m},
+            {"transition_s", facts.transition_s},
+            {"layers", layers},
+            {"layers_left_out", world.layers_left_out}};
+}
+
+Json world_json(const Facts& facts, const WorldState& world) {
     const world::Ownship& ownship = world.ownship;
     return {{"mode", protocol::cigi::mode_name(world.mode)},
             {"utc", ephemeris::to_iso(world.utc, 3)},
@@ -46,6 +74,7 @@ Json world_json(const WorldState& world) {
               {"humidity_pct", world.air.humidity_pct},
               {"wind_horizontal_m_s", world.air.wind_horizontal_m_s},
               {"wind_from_deg", world.air.wind_from_deg}}},
+            {"weather", weather_json(facts, world)},
             {"sun", {{"elevation_deg", world.sun_elevation_deg}, {"azimuth_deg", world.sun_azimuth_deg}}},
             {"moon",
              {{"elevation_deg", world.moon_elevation_deg},
@@ -144,8 +173,9 @@ std::string to_json(const Account& account) {
     json["age_s"] = account.age_s;
     json["health"] = {{"ok", account.health.good}, {"text", account.health.text}};
     json["recent"] = recent_json(account.snapshot.record.recent());
-    json["late_by_cause"] = late_json(account.snapshot.record);
-    json["world"] = world_json(account.snapshot.world);
+    json["pace"] = account.facts.pace;
+    json["overload"] = overload_json(account);
+    json["world"] = world_json(account.facts, account.snapshot.world);
     json["sources"] = Json::array();
     for (std::size_t i = 0; i < account.facts.sources.size(); ++i)
         json["sources"].push_back(source_json(account, i));

@@ -35,6 +35,26 @@ struct Times {
     double largest_ms = 0.0;
 };
 
+struct Delay {
+    std::uint64_t count = 0;
+    double median_ms = 0.0;
+    double p99_ms = 0.0;
+    double largest_ms = 0.0;
+};
+
+/// What frames leave out for the frame rate's sake, by the numbers of config::Thinning.
+struct Thinning {
+    std::uint64_t thinned = 0;
+    std::uint64_t times_thinned = 0;
+    std::uint64_t times_returned = 0;
+    bool exhausted = false;
+    /// The last step: what, whether it was left out by it, and what part of the period a frame had taken.
+    bool any_step = false;
+    bool last_thinned = false;
+    std::size_t last_thing = 0;
+    double last_load = 0.0;
+};
+
 struct FlightGearCounts {
     std::uint64_t packets = 0;
     std::array<std::uint64_t, protocol::flightgear::kReasons> refused{};
@@ -53,6 +73,9 @@ struct AspectState {
     world::HoldReason reason = world::HoldReason::kFirst;
 };
 
+/// Global weather layers that are told one by one; more are only counted.
+inline constexpr std::size_t kMostLayers = 32;
+
 /// What is drawn.
 struct WorldState {
     protocol::cigi::IgMode mode = protocol::cigi::IgMode::kStandby;
@@ -61,6 +84,10 @@ struct WorldState {
     double scene_time_s = 0.0;
     world::Ownship ownship;
     world::AirState air;
+    /// As they were set; what is on its way there is `transition_s` of the facts.
+    std::array<protocol::cigi::WeatherControl, kMostLayers> layers{};
+    std::size_t layer_count = 0;
+    std::size_t layers_left_out = 0;
     /// Airless, topocentric.
     double sun_elevation_deg = 0.0;
     double sun_azimuth_deg = 0.0;
@@ -82,6 +109,17 @@ struct Snapshot {
     Times frame;
     std::array<Times, config::kMaxChannels> channels{};
     std::array<ChannelHealth, config::kMaxChannels> health{};
+
+    /// From a message's arrival in the kernel until each channel is finished, until all have been handed on.
+    std::array<Delay, config::kMaxChannels> delays{};
+    Delay delay_shown;
+    /// Of the host in control: from one message to the next; by how much they come late.
+    Delay host_interval;
+    Delay host_jitter;
+    /// Frames that went on without the host's answer.
+    std::uint64_t host_timeouts = 0;
+    Thinning thinning;
+    std::size_t gl_objects = 0;
 
     WorldState world;
     std::array<PassState, kMostPasses> passes{};
@@ -129,10 +167,17 @@ struct Facts {
     /// What draws, for people.
     std::string renderer;
     double rate_hz = 0.0;
+    /// "clock", "display", "host".
+    std::string pace;
+    /// What may be left out, in order.
+    std::vector<std::string> thinning_order;
     /// In the order of the settings.
     std::vector<std::string> channels;
     /// The host first.
     std::vector<SourceFacts> sources;
+    /// Of the settings: what layers' heights count from there, and how long a change of weather takes.
+    double elevation_m = 0.0;
+    double transition_s = 0.0;
     std::string ephemeris;
     /// Days of the file of Earth orientation; empty without one.
     std::string earth_orientation;

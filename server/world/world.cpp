@@ -321,7 +321,7 @@ void World::advance(double step_s) {
     time_s_ += step_s;
     // What came before this step came at its start: the same instant is drawn.
     own_.track.advance(elapsed_s_);
-    static_cast<Pose&>(ownship_) = own_.track.at(elapsed_s_);
+    static_cast<Pose&>(ownship_) = own_.track.at(elapsed_s_ + ahead_s_);
     if (own_.clamped) ownship_.position.height_m = sea_height_m(ownship_.position);
     for (Entity& entity : entities_.all())
         entity.mover.track.advance(elapsed_s_);

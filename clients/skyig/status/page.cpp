@@ -66,6 +66,13 @@ std::string duration_text(double seconds) {
     return fmt::format("{} d {} h", whole / 86400, whole % 86400 / 3600);
 }
 
+std::string names_text(const Json& names) {
+    std::string text;
+    for (const Json& name : names)
+        fmt::format_to(std::back_inserter(text), "{}{}", text.empty() ? "" : ", ", text_of(name));
+    return text.empty() ? "nothing" : text;
+}
+
 void add_program(Page& page, const Json& now) {
     const Json& health = now.at("health");
     page.line("skyigd", "{}, up {} since {}", text_of(now.at("version")),
@@ -87,10 +94,28 @@ void add_frames(Page& page, const Json& now, Before before) {
               recent.at("frames").get<std::uint64_t>(),
               grown(now.at("late_frames"), member(before, "late_frames")),
               counts_text(now.at("late_by_cause"), member(before, "late_by_cause")));
+    const Json& overload = now.at("overload");
+    if (!overload.at("order").empty() || !overload.at("thinned").empty()) {
+        const std::string& reason = text_of(overload.at("reason"));
+        page.line("left out", "{}{}{}", names_text(overload.at("thinned")), reason.empty() ? "" : "; ",
+                  reason);
+    }
+    if (now.at("host_timeouts") != 0)
+        page.line("host", "not in time for {} frames",
+                  grown(now.at("host_timeouts"), member(before, "host_timeouts")));
     page.line("times in ms", "{:>10} {:>10} {:>10}", "median", "p95", "largest");
     add_times(page, "last frames", recent);
     for (const Json& times : now.at("times"))
         add_times(page, text_of(times.at("name")), times);
+    bool headed = false;
+    for (const Json& delay : now.at("delays")) {
+        if (delay.at("count") == 0) continue;
+        if (!headed) page.line("delays in ms", "{:>10} {:>10} {:>10}", "median", "p99", "largest");
+        headed = true;
+        page.line("  " + text_of(delay.at("name")), "{:>10.2f} {:>10.2f} {:>10.2f}",
+                  delay.at("median_ms").get<double>(), delay.at("p99_ms").get<double>(),
+                  delay.at("largest_ms").get<double>());
+    }
 }
 
 void add_world(Page& page, const Json& now) {
@@ -114,13 +139,6 @@ void add_world(Page& page, const Json& now) {
                        text_of(pass.at("pass")));
     }
     page.line("drawn", "{}", drawn.empty() ? "nothing" : drawn);
-}
-
-std::string names_text(const Json& names) {
-    std::string text;
-    for (const Json& name : names)
-        fmt::format_to(std::back_inserter(text), "{}{}", text.empty() ? "" : ", ", text_of(name));
-    return text.empty() ? "nothing" : text;
 }
 
 void add_source(Page& page, const Json& source, Before before) {
