@@ -87,7 +87,9 @@ struct Renderer::Impl {
     [[nodiscard]] const Channel& drawn(std::size_t channel) const noexcept {
         return draws_flat ? flat_channels[channel] : pictures.drawn(channel);
     }
-    [[nodiscard]] glm::dmat4 shown_from_clip(std::size_t channel) const noexcept;
+    [[nodiscard]] glm::dmat4 shown_from_clip(std::size_t channel) const noexcept {
+        return draws_flat ? glm::dmat4{1.0} : warps.shown_from_clip(channel);
+    }
     [[nodiscard]] bool shows_pattern(std::size_t channel) const noexcept {
         return shows_screen && scene.views[channel].pattern != Pattern::kOff;
     }
@@ -184,11 +186,6 @@ void Renderer::Impl::finish(std::size_t channel) {
     if (shows_screen) blend.draw(channel, pictures.whole(channel), tone32(channel).encode_power);
     if (shows_pattern(channel) || (shows_screen && scene.views[channel].overlay != 0)) write_texts(channel);
     gl::finish();
-}
-
-glm::dmat4 Renderer::Impl::shown_from_clip(std::size_t channel) const noexcept {
-    if (draws_flat || !channels[channel].warp) return glm::dmat4{1.0};
-    return warps.shown_from_clip(channel);
 }
 
 void Renderer::Impl::draw_pattern(std::size_t channel) {

@@ -90,7 +90,8 @@ void WarpPass::bind(std::size_t channel) const {
 }
 
 glm::dmat4 WarpPass::shown_from_clip(std::size_t channel) const noexcept {
-    return shown_from_clip_of(*channels_[channel].warp);
+    const warp::Warp* warp = channels_[channel].warp.get();
+    return warp == nullptr ? glm::dmat4{1.0} : shown_from_clip_of(*warp);
 }
 
 void WarpPass::bind_flat() const {

@@ -30,7 +30,7 @@ class WarpPass {
     void bind(std::size_t channel) const;
     void bind_flat() const;
 
-    /// What of a warped channel's flat picture may show, with a fiftieth to spare for edges drawn straight.
+    /// What of a channel's flat picture may show, with a fiftieth to spare for edges drawn straight.
     [[nodiscard]] glm::dmat4 shown_from_clip(std::size_t channel) const noexcept;
 
     /// Draws a finished flat picture as that channel shows it, over all of the framebuffer that is bound.
