@@ -58,12 +58,8 @@ ChannelPlaces read_channel(TableReader& table, ErrorList& errors, const Config& 
         }
     }
     table.require("name", "a short text such as \"centre\"");
-    table.integer("width_px", channel.width_px, 1, kMaxChannelSize_px, "pixels");
-    table.integer("height_px", channel.height_px, 1, kMaxChannelSize_px, "pixels");
-    table.require("width_px", "the channel's width in pixels");
-    table.require("height_px", "the channel's height in pixels");
     read_offset(table, channel, places);
-    read_frustum(table, channel);
+    read_projection(table, errors.file(), channel);
     if (const Value* value = table.integer("view_id", channel.view_id, 0, 65535); value != nullptr) {
         places.view_id = value->place;
     }

@@ -15,12 +15,11 @@ std::string_view output_name(OutputKind kind) {
     return kind == OutputKind::kWindow ? "in windows" : "headless";
 }
 
-/// A path in the settings is meant from where they stand.
+}  // namespace
+
 std::string beside(const std::string& settings_file, const std::string& path) {
     return path.empty() ? path : (std::filesystem::path(settings_file).parent_path() / path).string();
 }
-
-}  // namespace
 
 LoadResult parse_config(std::string_view text, const std::string& file_name) {
     Table root;

@@ -48,6 +48,18 @@ void read_eye(TableReader table, Eye& eye);
 /// Reads the frustum of a [[channel]] and where it looks, its size and eye being read.
 void read_frustum(TableReader& table, Channel& channel);
 
+/// A path in the settings is meant from where they stand.
+[[nodiscard]] std::string beside(const std::string& settings_file, const std::string& path);
+
+/// The keys of a frustum exist, but nothing is read.
+void know_frustum(TableReader& table);
+/// Refuses what gives a frustum and where it looks, since `beside` does. \return whether there is nothing
+bool refuse_frustum(TableReader& table, std::string_view beside);
+
+/// Reads size and projection of a [[channel]], its eye being read: size and frustum, or [channel.mpcdi], and
+/// [channel.warp] and [channel.blend] with their files, whose paths are meant from where the settings stand.
+void read_projection(TableReader& table, const std::string& settings_file, Channel& channel);
+
 /// Reads the [[window]] tables, and where in one a [[channel]] is shown.
 void read_windows(TableReader& root, ErrorList& errors, std::vector<Window>& windows);
 void read_viewport(TableReader& table, ErrorList& errors, const std::vector<Window>& windows,

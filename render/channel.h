@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,11 @@
 #include "render/pattern/pattern.h"
 
 namespace skyig::render {
+
+namespace warp {
+class Warp;
+struct Blend;
+}  // namespace warp
 
 /// Signed half angles in radians from the view axis to each side plane of a perspective frustum:
 /// left < right, bottom < top, each strictly inside (-pi/2, pi/2). Left and bottom are normally negative.
@@ -23,6 +29,9 @@ struct Frustum {
     friend bool operator==(const Frustum&, const Frustum&) = default;
 };
 
+/// How a warped channel is drawn: everything at once where the screen shows it, or flat and then resampled.
+enum class WarpDrawing : std::uint8_t { kDirect, kResampled };
+
 /// What of a channel never changes while the daemon runs.
 struct Channel {
     std::string name;
@@ -32,6 +41,13 @@ struct Channel {
     std::optional<Screen> screen = {};
     /// Screen pixels to a pixel of the font in texts over its picture, 1..kMaxTextScale.
     int text_scale = 2;
+    /// Null: the screen shows the frustum's flat picture. \see warp/warp.h
+    std::shared_ptr<const warp::Warp> warp = {};
+    WarpDrawing drawing = WarpDrawing::kDirect;
+    /// Of the flat picture that is resampled, by the screen's pixels each way, 0.25..4.
+    double render_scale = 1.0;
+    /// Null: no other projector shines on the screen. Not of targets of luminance. \see warp/blend.h
+    std::shared_ptr<const warp::Blend> blend = {};
 };
 
 /// How what is drawn of a view becomes its channel's picture.
@@ -74,7 +90,7 @@ struct ImagePlane {
 [[nodiscard]] ImagePlane image_plane(const Frustum& frustum) noexcept;
 
 /// Direction in the view frame (unit) through image coordinates in pixels, origin at the lower left corner of
-/// the lower left pixel, so that pixel (i, j) has its centre at (i + 0.5, j + 0.5).
+/// the lower left pixel, so that pixel (i, j) has its centre at (i + 0.5, j + 0.5); as its warp shows it.
 [[nodiscard]] glm::dvec3 view_direction(const Channel& channel, const Frustum& frustum, double x_px,
                                         double y_px) noexcept;
 
@@ -90,8 +106,17 @@ struct DrawnView {
 };
 [[nodiscard]] DrawnView drawn_view(int width_px, int height_px, const ChannelView& view) noexcept;
 
-/// Angle between neighbouring pixel centres on the view axis, the larger of the two directions, radians.
+/// Angle between neighbouring pixel centres on the view axis, the larger of the two directions, radians; with
+/// a warp where the screen's pixels are finest.
 [[nodiscard]] double pixel_angle_rad(const Channel& channel, const Frustum& frustum) noexcept;
+
+/// Longest edge of a triangle, radians, whose straight image in a warped channel is off by no more than some
+/// 0.04 deg, 0.15 to 1 pixels; 2..180 deg, the latter without a warp.
+[[nodiscard]] double longest_edge_rad(const Channel& channel, const Frustum& frustum) noexcept;
+
+/// The least of those that are drawn directly and have a view with an area.
+[[nodiscard]] double longest_direct_edge_rad(std::span<const Channel> channels,
+                                             std::span<const ChannelView> views) noexcept;
 
 /// Whether anything can be seen through a frustum.
 [[nodiscard]] bool has_area(const Frustum& frustum) noexcept;

@@ -34,6 +34,11 @@ class ChannelPictures {
     /// What is drawn becomes the picture; draws onto that follow.
     void finish(std::size_t channel);
 
+    /// Of a channel that is finished.
+    [[nodiscard]] const gl::Framebuffer& whole(std::size_t channel) const noexcept {
+        return *places_[channel].picture;
+    }
+
     /// A red cross. Nothing where there is no picture.
     void cross_out(std::size_t channel);
     /// 0 where there is none.

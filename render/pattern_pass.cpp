@@ -65,8 +65,8 @@ constexpr float kNameGround = 0.15F;
 
 }  // namespace
 
-PatternPass::PatternPass()
-    : directions_("pattern/pattern.vert", "pattern/directions.frag"),
+PatternPass::PatternPass(gl::Placement placement)
+    : directions_("pattern/pattern.vert", "pattern/directions.frag", placement),
       plane_(directions_.uniform("u_plane")),
       enu_from_view_(directions_.uniform("u_enu_from_view")),
       clip_from_enu_(directions_.uniform("u_clip_from_enu")),

@@ -13,7 +13,7 @@ namespace skyig::render {
 class PatternPass {
   public:
     /// \throws std::runtime_error when a program cannot be made
-    PatternPass();
+    explicit PatternPass(gl::Placement placement = gl::Placement::kFlat);
 
     /// Onto a bound picture. \param drawn, view  as they are drawn \param index  of the channel: each has a
     /// colour of its own in patterns of seams

@@ -26,8 +26,8 @@ std::vector<std::uint32_t> quads() {
 
 }  // namespace
 
-PrecipitationPass::Shader::Shader(std::string_view fragment)
-    : program("precipitation/streak.vert", fragment),
+PrecipitationPass::Shader::Shader(std::string_view fragment, gl::Placement placement)
+    : program("precipitation/streak.vert", fragment, placement),
       tone(program, true),
       view(program.uniform("u_view_from_enu")),
       plane_origin(program.uniform("u_plane_origin")),
@@ -36,8 +36,8 @@ PrecipitationPass::Shader::Shader(std::string_view fragment)
       mean(program.uniform("u_mean_cd_m2")),
       gradient(program.uniform("u_gradient_cd_m2")) {}
 
-PrecipitationPass::PrecipitationPass()
-    : sky_("precipitation/streak.frag"), vertices_(4 * kMost), mesh_({3, 3, 2}, 4 * kMost) {
+PrecipitationPass::PrecipitationPass(gl::Placement placement)
+    : sky_("precipitation/streak.frag", placement), vertices_(4 * kMost), mesh_({3, 3, 2}, 4 * kMost) {
     mesh_.set_indices(quads());
 }
 

@@ -23,7 +23,7 @@ namespace skyig::render {
 class PrecipitationPass {
   public:
     /// \throws std::runtime_error when the program cannot be made
-    PrecipitationPass();
+    explicit PrecipitationPass(gl::Placement placement);
 
     /// Once a frame whose plan needs it. \param pixel_rad  of the finest channel: edges are softened over it
     /// \param density  of the streaks \see precipitation::StreakField::update()
@@ -46,7 +46,7 @@ class PrecipitationPass {
         glm::vec2 shape;
     };
     struct Shader {
-        explicit Shader(std::string_view fragment);
+        explicit Shader(std::string_view fragment, gl::Placement placement = gl::Placement::kFlat);
         gl::Program program;
         ToneUniforms tone;
         int view, plane_origin, plane_size, pixel, mean, gradient;

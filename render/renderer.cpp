@@ -1,9 +1,13 @@
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "render/blend_pass.h"
 #include "render/channel_pictures.h"
 #include "render/cloud_pass.h"
 #include "render/deferred_pass.h"
@@ -11,7 +15,6 @@
 #include "render/eye/tone_curve.h"
 #include "render/gl/debug_log.h"
 #include "render/gl/draw.h"
-#include "render/gl/mesh.h"
 #include "render/gl/program.h"
 #include "render/glare_pass.h"
 #include "render/milky_way_pass.h"
@@ -20,10 +23,12 @@
 #include "render/pattern/pattern_text.h"
 #include "render/pattern_pass.h"
 #include "render/precipitation_pass.h"
+#include "render/refined_mesh.h"
 #include "render/screens.h"
 #include "render/sea_pass.h"
 #include "render/sky_frame.h"
 #include "render/star_pass.h"
+#include "render/warp_pass.h"
 #include "render/wet_pass.h"
 
 namespace skyig::render {
@@ -58,18 +63,33 @@ struct Renderer::Impl {
          Target target)
         : channels(std::move(channel_list)),
           display(display_settings),
+          pixels_hold(target),
           screens(screens_of(channels, display_settings)),
           pictures(channels, pixel_format(target)),
           shows_screen(target == Target::kDisplay),
+          target_format(pixel_format(target)),
+          flat_pictures(channels.size()),
+          blend(channels, display_settings.dither),
           frame(display_settings, quality, screens.distinct, target) {
         display.dither = display.dither && target == Target::kDisplay;
+        for (const Channel& channel : channels)
+            flat_channels.push_back(flat_picture_of(channel));
         for (std::size_t i = 0; i < screens.distinct.size(); ++i)
-            dome_meshes.emplace_back(std::initializer_list<int>{3, 3, 3}, Dome::kMaxVertices);
+            dome_meshes.emplace_back(std::initializer_list<int>{3, 3, 3}, Dome::kMaxVertices,
+                                     placement == gl::Placement::kWarped);
         dome_program.set(dome_program.uniform("u_dither_codes"), display.dither ? 1.0F : 0.0F);
         gl::set_common_state();
     }
 
+    void begin(std::size_t channel, bool flat);
     void finish(std::size_t channel);
+    /// What the channel that is begun draws into.
+    [[nodiscard]] const Channel& drawn(std::size_t channel) const noexcept {
+        return draws_flat ? flat_channels[channel] : pictures.drawn(channel);
+    }
+    [[nodiscard]] glm::dmat4 shown_from_clip(std::size_t channel) const noexcept {
+        return draws_flat ? glm::dmat4{1.0} : warps.shown_from_clip(channel);
+    }
     [[nodiscard]] bool shows_pattern(std::size_t channel) const noexcept {
         return shows_screen && scene.views[channel].pattern != Pattern::kOff;
     }
@@ -79,7 +99,8 @@ struct Renderer::Impl {
     void prepare_discs(std::size_t screen);
     void prepare_moon(std::size_t screen);
     void draw_dome(std::size_t channel, const glm::dmat4& clip_from_enu);
-    void draw_clouded_dome(std::size_t channel, const glm::dmat4& clip_from_mesh, std::uint32_t sea_rows);
+    void draw_clouded_dome(std::size_t channel, const glm::dmat4& clip_from_mesh,
+                           const glm::dmat4& shown_from_mesh, std::uint32_t sea_rows);
     void prepare_clouds();
     [[nodiscard]] const CloudPass* shown_clouds() const noexcept {
         return frame.clouds().shown() ? clouds.get() : nullptr;
@@ -97,27 +118,34 @@ struct Renderer::Impl {
 
     std::vector<Channel> channels;
     DisplaySettings display;
+    Target pixels_hold;
     Screens screens;
     gl::DebugLog log;
     ChannelPictures pictures;
     bool shows_screen;  // else light itself
-    gl::Program dome_program{"sky/dome.vert", "sky/dome.frag"};
+    gl::PixelFormat target_format;
+    std::vector<Channel> flat_channels;
+    std::vector<std::optional<gl::Framebuffer>> flat_pictures;  // once one is resampled
+    gl::Placement placement = placement_of(channels);
+    WarpPass warps{channels};
+    BlendPass blend;
+    gl::Program dome_program{"sky/dome.vert", "sky/dome.frag", placement};
     int dome_clip = dome_program.uniform("u_clip_from_mesh");
     int dome_half_size = dome_program.uniform("u_half_size_px");
     int dome_share = dome_program.uniform("u_share");
-    std::vector<gl::Mesh> dome_meshes;  // one a screen
+    std::vector<RefinedMesh> dome_meshes;  // one a screen
     std::uint64_t triangles_revision = 0;
     std::uint64_t vertices_revision = 0;
     std::unique_ptr<CloudPass> clouds;  // once there are any
-    SeaPass sea{screens.distinct.size()};
-    MilkyWayPass milky_way{screens.distinct.size()};
-    StarPass stars;
-    Corona corona;
-    SunDisc sun_disc;
-    MoonDisc moon_disc;
-    PrecipitationPass precipitation;
-    GlarePass sun_glare;
-    GlarePass moon_glare;
+    SeaPass sea{screens.distinct.size(), placement};
+    MilkyWayPass milky_way{screens.distinct.size(), placement};
+    StarPass stars{placement};
+    Corona corona{placement};
+    SunDisc sun_disc{placement};
+    MoonDisc moon_disc{placement};
+    PrecipitationPass precipitation{placement};
+    GlarePass sun_glare{placement};
+    GlarePass moon_glare{placement};
     std::unique_ptr<DeferredPass> deferred;  // once a scene is drawn
     std::unique_ptr<WetPass> wet;            // once a wet one is
     std::unique_ptr<PatternPass> patterns;   // once one is shown
@@ -127,21 +155,43 @@ struct Renderer::Impl {
     SkyFrame frame;
     Scene scene;
     double pixel_rad = 1e-3;
+    double longest_edge_rad = std::numbers::pi;  // of a triangle in the rig's warped channels
+    double uploaded_edge_rad = 0.0;
+    bool draws_flat = false;
     std::size_t discs_screen = 0;  // what discs are prepared for
     FrameReport report;
 };
 
+void Renderer::Impl::begin(std::size_t channel, bool flat) {
+    draws_flat = flat && channels[channel].warp;
+    pictures.begin(channel);
+    if (!draws_flat) {
+        warps.bind(channel);
+        return;
+    }
+    std::optional<gl::Framebuffer>& picture = flat_pictures[channel];
+    const Channel& size = flat_channels[channel];
+    if (!picture) picture.emplace(size.width_px, size.height_px, target_format);
+    warps.bind_flat();
+    picture->bind();
+}
+
 /// From what is drawn to the picture.
 void Renderer::Impl::finish(std::size_t channel) {
+    if (draws_flat) {
+        pictures.begin(channel);
+        warps.resample(channel, *flat_pictures[channel]);
+    }
     pictures.finish(channel);
+    if (shows_screen) blend.draw(channel, pictures.whole(channel), tone32(channel).encode_power);
     if (shows_pattern(channel) || (shows_screen && scene.views[channel].overlay != 0)) write_texts(channel);
     gl::finish();
 }
 
 void Renderer::Impl::draw_pattern(std::size_t channel) {
-    if (!patterns) patterns = std::make_unique<PatternPass>();
+    if (!patterns) patterns = std::make_unique<PatternPass>(placement);
     gl::set_blend(gl::Blend::kReplace);
-    patterns->draw(pictures.drawn(channel), pictures.view(channel), clip_from_enu(channel),
+    patterns->draw(drawn(channel), pictures.view(channel), clip_from_enu(channel),
                    screens.distinct[screens.of_channel[channel]], channel);
 }
 
@@ -158,13 +208,18 @@ void Renderer::Impl::write_texts(std::size_t channel) {
 }
 
 void Renderer::Impl::upload_dome() {
+    const bool triangles =
+        triangles_revision != frame.triangles_revision() || uploaded_edge_rad != longest_edge_rad;
     for (std::size_t screen = 0; screen < dome_meshes.size(); ++screen) {
-        gl::Mesh& mesh = dome_meshes[screen];
-        if (triangles_revision != frame.triangles_revision()) mesh.set_indices(frame.dome().indices());
-        if (vertices_revision == frame.vertices_revision()) continue;
-        const auto vertices = frame.dome().vertices(screen);
-        mesh.update({reinterpret_cast<const float*>(vertices.data()), vertices.size_bytes() / sizeof(float)});
+        const auto dome = frame.dome().vertices(screen);
+        const std::span<const float> vertices{reinterpret_cast<const float*>(dome.data()),
+                                              dome.size_bytes() / sizeof(float)};
+        if (triangles)
+            dome_meshes[screen].set_triangles(frame.dome().indices(), vertices, longest_edge_rad);
+        else if (vertices_revision != frame.vertices_revision())
+            dome_meshes[screen].set_vertices(vertices);
     }
+    uploaded_edge_rad = longest_edge_rad;
     triangles_revision = frame.triangles_revision();
     vertices_revision = frame.vertices_revision();
 }
@@ -189,8 +244,9 @@ void Renderer::Impl::prepare_moon(std::size_t screen) {
 }
 
 void Renderer::Impl::draw_dome(std::size_t index, const glm::dmat4& clip_from_enu) {
-    const Channel& channel = pictures.drawn(index);
+    const Channel& channel = drawn(index);
     const glm::dmat4 clip_from_mesh = clip_from_enu * frame.enu_from_mesh();
+    const glm::dmat4 shown_from_mesh = shown_from_clip(index) * clip_from_mesh;
     dome_program.use();
     dome_program.set(dome_clip, glm::mat4{clip_from_mesh});
     dome_program.set(dome_half_size, 0.5F * glm::vec2{channel.width_px, channel.height_px});
@@ -199,29 +255,29 @@ void Renderer::Impl::draw_dome(std::size_t index, const glm::dmat4& clip_from_en
     const auto sea_rows = static_cast<std::uint32_t>(frame.sea_rows());
     const bool clouded = frame.clouds().shown();
     const Marked plain = clouded ? Marked::kNo : Marked::kAll;
-    for (const IndexRange& range : frame.dome().visible(clip_from_mesh, {.first = sea_rows}, plain))
-        dome_meshes[screen].draw_triangles(range.first, range.count);
+    for (const IndexRange& range : frame.dome().visible(shown_from_mesh, {.first = sea_rows}, plain))
+        dome_meshes[screen].draw(range);
     if (sea_rows > 0) {
         sea.draw(channel, screen, eye::single_precision(frame.tone(screen)), clip_from_mesh,
-                 frame.dome().visible(clip_from_mesh, {.end = sea_rows}));
+                 frame.dome().visible(shown_from_mesh, {.end = sea_rows}));
     }
-    if (clouded) draw_clouded_dome(index, clip_from_mesh, sea_rows);
+    if (clouded) draw_clouded_dome(index, clip_from_mesh, shown_from_mesh, sea_rows);
 }
 
 void Renderer::Impl::draw_clouded_dome(std::size_t index, const glm::dmat4& clip_from_mesh,
-                                       std::uint32_t sea_rows) {
+                                       const glm::dmat4& shown_from_mesh, std::uint32_t sea_rows) {
     const std::size_t screen = screens.of_channel[index];
     const auto draw_ranges = [&](std::span<const IndexRange> ranges) {
         for (const IndexRange& range : ranges)
-            dome_meshes[screen].draw_triangles(range.first, range.count);
+            dome_meshes[screen].draw(range);
     };
     clouds->bind(screen);
-    clouds->use_dome(pictures.drawn(index), clip_from_mesh, frame.enu_from_mesh(), frame.dome().share());
+    clouds->use_dome(drawn(index), clip_from_mesh, frame.enu_from_mesh(), frame.dome().share());
     gl::set_clip_distances(3);
     for (int i = 0; i < kOctants; ++i) {
         const Octant octant = octant_of(i, frame.enu_from_mesh());
         const auto ranges =
-            frame.dome().visible(clip_from_mesh, octant.sides, {.first = sea_rows}, Marked::kYes);
+            frame.dome().visible(shown_from_mesh, octant.sides, {.first = sea_rows}, Marked::kYes);
         if (ranges.empty()) continue;
         clouds->take(octant);
         draw_ranges(ranges);
@@ -231,7 +287,7 @@ void Renderer::Impl::draw_clouded_dome(std::size_t index, const glm::dmat4& clip
     // Waves are drawn already.
     clouds->use_over(clip_from_mesh, frame.enu_from_mesh());
     gl::set_blend(gl::Blend::kOver);
-    draw_ranges(frame.dome().visible(clip_from_mesh, {.end = sea_rows}, Marked::kYes));
+    draw_ranges(frame.dome().visible(shown_from_mesh, {.end = sea_rows}, Marked::kYes));
     gl::set_blend(gl::Blend::kReplace);
 }
 
@@ -239,7 +295,7 @@ void Renderer::Impl::prepare_clouds() {
     report.cloud_rays = 0;
     report.cloud_tiles = 0;
     if (!frame.clouds().shown()) return;
-    if (!clouds) clouds = std::make_unique<CloudPass>(screens.distinct.size());
+    if (!clouds) clouds = std::make_unique<CloudPass>(screens.distinct.size(), placement);
     clouds->prepare(frame.clouds(), display.dither);
     report.cloud_rays = frame.clouds().map().rays_marched() + frame.clouds().map().near_rays();
     report.cloud_tiles = frame.clouds().toned().size();
@@ -282,11 +338,12 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     m.pictures.take(scene);
     m.pixel_rad = finest_pixel_rad(m.pictures.drawn(), m.pictures.views());
     m.frame.prepare(scene, m.pixel_rad, smallest_pixel_sr(m.pictures.drawn(), m.pictures.views()));
+    m.longest_edge_rad = longest_direct_edge_rad(m.pictures.drawn(), m.pictures.views());
     m.upload_dome();
     m.prepare_clouds();
-    if (m.frame.sea_rows() > 0) m.sea.prepare(m.frame, m.display.dither);
+    if (m.frame.sea_rows() > 0) m.sea.prepare(m.frame, m.display.dither, m.longest_edge_rad);
     if (m.frame.light().milky_way.map != nullptr)
-        m.milky_way.prepare(m.frame.milky_way(), m.frame.light(), m.display.dither);
+        m.milky_way.prepare(m.frame.milky_way(), m.frame.light(), m.display.dither, m.longest_edge_rad);
     m.report.stars_drawn = 0;
     if (m.frame.plan().needs(Pass::kStars)) {
         m.stars.prepare(scene, m.frame, m.pixel_rad);
@@ -323,9 +380,10 @@ void Renderer::Impl::draw_sky(std::size_t channel) {
     draw_dome(channel, clip);
     gl::set_blend(gl::Blend::kAdd);
     if (frame.light().milky_way.map != nullptr)
-        milky_way.draw(frame.milky_way(), pictures.drawn(channel), screen, clip, shown_clouds());
+        milky_way.draw(frame.milky_way(), drawn(channel), screen, clip, shown_from_clip(channel),
+                       shown_clouds());
     if (plan.needs(Pass::kStars))
-        stars.draw(pictures.drawn(channel), pictures.view(channel), tone32(channel), shown_clouds());
+        stars.draw(drawn(channel), pictures.view(channel), tone32(channel), shown_clouds());
     if (plan.needs(Pass::kCorona)) corona.draw(glm::mat4{clip});
 }
 
@@ -341,13 +399,13 @@ void Renderer::Impl::draw_wet(std::size_t channel, const DeferredInput& input) {
         wet = std::make_unique<WetPass>();
         wet->prepare(scene, frame.light());
     }
-    wet->draw(pictures.drawn(channel), pictures.view(channel), tone32(channel), input);
+    wet->draw(drawn(channel), pictures.view(channel), tone32(channel), input);
 }
 
 void Renderer::draw(std::size_t channel) {
     Impl& m = *impl_;
     if (!m.shows(channel)) return;
-    m.pictures.begin(channel);
+    m.begin(channel, m.channels[channel].drawing == WarpDrawing::kResampled);
     if (m.shows_pattern(channel))
         m.draw_pattern(channel);
     else
@@ -388,7 +446,7 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
         m.prepare_clouds();
         m.refresh_deferred();
     }
-    m.pictures.begin(channel);
+    m.begin(channel, true);
     m.draw_sky(channel);
     m.draw_discs(channel);
     gl::set_blend(gl::Blend::kReplace);

@@ -78,7 +78,8 @@ class Renderer {
     /// and nothing of the frame.
     void cross_out(std::size_t channel);
 
-    /// The same with another renderer's picture of that channel, under this frame's air and tone curve. The
+    /// The same with another renderer's picture of that channel, under this frame's air and tone curve; where
+    /// the channel is warped, of its flat picture, render_scale times its size, which is resampled. The
     /// first call allocates and builds the table of the air between (some 40 ms), from then on prepare()
     /// keeps it; it may throw like the constructor. Ridges stand where a straight ray sees them.
     void draw_scene(std::size_t channel, const DeferredInput& input);
