@@ -69,9 +69,8 @@ class MapGeometry {
     int size_;
 };
 
-/// The smallest of 512, 1024 and 2048 whose texels are nowhere wider than four of the rig's finest pixels
-/// (of 512, two and a half),
-/// halved until what the views see of it is at most kMostSeenTexels.
+/// The smallest of 512, 1024 and 2048 whose texels are nowhere wider than four of the rig's finest pixels (of
+/// 512, two and a half), halved until what the views see of it is at most kMostSeenTexels.
 [[nodiscard]] int map_size_for(double pixel_rad, std::span<const ChannelView> views) noexcept;
 inline constexpr double kMostSeenTexels = 650e3;
 
