@@ -31,6 +31,7 @@ CloudFrame::CloudFrame(std::size_t screens) : laws_(screens), texels_(screens) {
 void CloudFrame::stop() noexcept {
     if (!shown_) return;
     map_.stop();
+    shadow_ = nullptr;
     shown_ = false;
     toned_.clear();
     clouded_.clear();
@@ -104,7 +105,29 @@ double CloudFrame::transmittance(Body body) const noexcept {
 
 glm::dvec3 CloudFrame::seen_through(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
                                     const glm::dvec3& direction_enu) const noexcept {
-    return shown_ ? composed(map_.sight(direction_enu), air, behind_cd_m2, direction_enu) : behind_cd_m2;
+    if (!shown_) return behind_cd_m2;
+    const glm::dvec3 shade_cd_m2 =
+        shadow_ != nullptr ? shadow_->change_cd_m2(air, direction_enu, map_.geometry().worst_texel_rad())
+                           : glm::dvec3{0.0};
+    return composed(map_.sight(direction_enu), air, behind_cd_m2 + shade_cd_m2, direction_enu);
+}
+
+glm::dvec3 CloudFrame::before_thing(const DeferredAir& air, const glm::dvec3& thing_cd_m2,
+                                    const glm::dvec3& direction_enu, double distance_m) const noexcept {
+    if (!shown_) return thing_cd_m2;
+    const cloud::CloudMap::Sight sight = map_.sight(direction_enu);
+    const double inverse_per_m = sight.distance_m > 0.0 ? 1.0 / sight.distance_m : 0.0;
+    const double before = shaders64::passed_before(sight.transmittance, 1.0 - sight.near_opacity, distance_m,
+                                                   cloud::kNearRange_m, inverse_per_m);
+    const glm::dvec3 all_cd_m2 = composed(sight, air, glm::dvec3{0.0}, direction_enu);
+    return before * thing_cd_m2 + shaders64::light_before(sight.transmittance, before) * all_cd_m2;
+}
+
+void CloudFrame::serve_things() noexcept {
+    if (serves_things_) return;
+    serves_things_ = true;
+    for (Made& made : made_)
+        made.map = 0;
 }
 
 glm::dvec3 CloudFrame::probed(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
@@ -118,7 +141,7 @@ void CloudFrame::refresh_backdrops(const SkyLight& light, const DeferredAir& air
     for (const int tile : clouded_tiles_) {
         Made& made = made_[static_cast<std::size_t>(tile)];
         if (made.light != 0 && !jumped_) continue;
-        look_up(backdrops_[static_cast<std::size_t>(tile)], map_, tile, light, air);
+        look_up(backdrops_[static_cast<std::size_t>(tile)], map_, tile, light, air, shadow_);
         made.light = revision;
         made.map = 0;
     }
@@ -128,7 +151,7 @@ void CloudFrame::refresh_backdrops(const SkyLight& light, const DeferredAir& air
         const int tile = clouded_tiles_[next_backdrop_++ % count];
         Made& made = made_[static_cast<std::size_t>(tile)];
         if (made.light == revision) continue;
-        look_up(backdrops_[static_cast<std::size_t>(tile)], map_, tile, light, air);
+        look_up(backdrops_[static_cast<std::size_t>(tile)], map_, tile, light, air, shadow_);
         made.light = revision;
         made.map = 0;
         ++refreshed;
@@ -136,19 +159,25 @@ void CloudFrame::refresh_backdrops(const SkyLight& light, const DeferredAir& air
 }
 
 // Whether a tile of the texture still shows what it should: nothing has changed but the eye's place, and that
-// by less than a quarter of a fine pixel.
+// by what moves no code by half a step. The bound is too wide by three: it takes the tile's largest step, its
+// nearest cloud, and texels as narrow as they are anywhere.
 bool CloudFrame::serves(int tile, std::uint64_t tone_revision) const noexcept {
     const Made& made = made_[static_cast<std::size_t>(tile)];
-    if (!made.clouded || made.tone != tone_revision || made.map != map_.revision() ||
-        !still_serves(near_made_[static_cast<std::size_t>(tile)], near_))
+    if (!made.clouded || made.tone != tone_revision || made.map == 0) return false;
+    const double shaded_m = shaded_from_m(tile);
+    if (shaded_m > 0.0 ? !shadow_->serves(made.shadow, shaded_m, tile) : made.shadow.shaded) return false;
+    if (!map_.may_show(tile)) return !made.with_clouds;
+    if (made.map != map_.revision() || !still_serves(near_made_[static_cast<std::size_t>(tile)], near_))
         return false;
-    constexpr float kStep_rad = 2.2e-4F;
+    constexpr float kStep = 3.0F * 0.5F / 255.0F;
+    // Texels are 1.41 / size wide where they are narrowest; a way aslant goes over rows and columns.
+    const float steps_a_rad = made.step * static_cast<float>(map_.geometry().size());
     const glm::vec3 axis{map_.cone(tile).axis};
     const auto parts = map_.parts();
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const glm::vec3 moved_m = parts[k].offset_m - made.offsets_m[k];
         const float aside_m = glm::length(glm::cross(axis, moved_m));
-        if (aside_m * parts[k].snapshot->nearest_inverse(tile) > steps_ * kStep_rad) return false;
+        if (aside_m * parts[k].snapshot->nearest_inverse(tile) * steps_a_rad > steps_ * kStep) return false;
     }
     return true;
 }
@@ -166,7 +195,7 @@ void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
         laws_[screen] = law_of(tones[screen]);
     for (const int tile : map_.seen_tiles()) {
         Made& made = made_[static_cast<std::size_t>(tile)];
-        if (map_.may_show(tile)) {
+        if (map_.may_show(tile) || shaded_from_m(tile) > 0.0) {
             clouded_tiles_.push_back(tile);
             clouded_.push_back(map_.cone(tile));
         } else if (made.clouded) {
@@ -180,6 +209,8 @@ void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
     for (auto& texels : texels_) {
         if (texels.size() < most) texels.resize(most);
     }
+    const std::size_t of_things = serves_things_ ? map_.seen_tiles().size() * CloudTile::kThingFloats : 0;
+    if (things_.size() < of_things) things_.resize(of_things);
     for (const int tile : clouded_tiles_)
         refresh_tile(tile, light, tone_revision);
 }
@@ -191,12 +222,20 @@ void CloudFrame::refresh_tile(int tile, const SkyLight& light, std::uint64_t ton
     const cloud::Flashes flashes = flashes_on(map_.cone(tile), flashes_);
     const bool flashed = flashes.count > 0;
     if (!flashed && !made.flashed && serves(tile, tone_revision)) return;
-    const std::size_t first = toned_count_++ * kTileFloats;
+    const std::size_t count = toned_count_++;
+    const std::size_t first = count * kTileFloats;
+    const bool shaded = shaded_from_m(tile) > 0.0;
     tile_.take(map_, tile, backdrops_[index], near_, light, flashes);
-    tile_.tone(laws_, texels_, first);
+    if (shaded) tile_.shade(*shadow_, backdrops_[index]);
+    const std::span<float> things =
+        serves_things_ ? std::span{things_}.subspan(count * CloudTile::kThingFloats, CloudTile::kThingFloats)
+                       : std::span<float>{};
+    made.step = tile_.tone(laws_, texels_, first, things);
     toned_.push_back({tile, first});
     made.flashed = flashed;
     made.clouded = true;
+    made.with_clouds = map_.may_show(tile);
+    made.shadow = shaded ? shadow_->now() : GroundShadow::Made{};
     made.map = map_.revision();
     made.tone = tone_revision;
     for (std::size_t k = 0; k < map_.parts().size(); ++k)

@@ -42,8 +42,12 @@ class CloudFrame {
     /// The frame's clouds in linear light; from then on seen_through() and its like may be asked.
     void follow(cloud::CloudMaker& maker, const Scene& scene, const cloud::CloudLight& on_clouds,
                 const SkyLight& light, bool jumped, int size, int tiles_a_frame);
-    /// By how many steps at once what is toned follows the eye, at least 1: a step is a quarter of a fine
-    /// pixel.
+    /// Shadows of this frame's clouds, null for none; it must live until the next call.
+    void shade_ground(const GroundShadow* shadow) noexcept { shadow_ = shadow; }
+    /// From now on things stand among the clouds: tones all again.
+    void serve_things() noexcept;
+    /// By how many steps at once what is toned follows the eye, at least 1: a step moves no code by more than
+    /// half of one.
     void step_by(float steps) noexcept { steps_ = steps; }
     /// Tones what has changed. \param tones  one for each screen \param light_revision  rises when the light
     /// has changed by what may show \param tone_revision  likewise \param flashes  that light the clouds
@@ -55,6 +59,11 @@ class CloudFrame {
     /// The same for all screens.
     [[nodiscard]] std::span<const TonedTile> toned() const noexcept { return toned_; }
     [[nodiscard]] std::span<const float> texels(std::size_t screen) const noexcept { return texels_[screen]; }
+    /// CloudTile::kThingFloats of a toned tile that shows clouds, once serve_things() was called.
+    [[nodiscard]] std::span<const float> things(const TonedTile& toned) const noexcept {
+        return std::span{things_}.subspan(toned.first / kTileFloats * CloudTile::kThingFloats,
+                                          CloudTile::kThingFloats);
+    }
     /// Rises when the map has got another size: all of it is clear until told otherwise.
     [[nodiscard]] std::uint64_t size_revision() const noexcept { return size_revision_; }
     /// Cones of the tiles that show clouds to a view.
@@ -68,6 +77,10 @@ class CloudFrame {
     /// What is seen of light behind all clouds and air, with the clouds' own. \param direction_enu  in a view
     [[nodiscard]] glm::dvec3 seen_through(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
                                           const glm::dvec3& direction_enu) const noexcept;
+    /// What is seen of a thing in air, and of the clouds before it. \param thing_cd_m2  with the air before
+    /// it
+    [[nodiscard]] glm::dvec3 before_thing(const DeferredAir& air, const glm::dvec3& thing_cd_m2,
+                                          const glm::dvec3& direction_enu, double distance_m) const noexcept;
     /// The same in the direction of one of eye::probe_directions().
     [[nodiscard]] glm::dvec3 probed(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
                                     std::size_t probe) const noexcept;
@@ -80,7 +93,10 @@ class CloudFrame {
         std::uint64_t tone = 0;
         bool clouded = false;
         bool flashed = false;
+        float step = 0.0F;                     // CloudTile::tone()
         std::array<glm::vec3, 2> offsets_m{};  // of the map's parts
+        bool with_clouds = false;
+        GroundShadow::Made shadow;
     };
     void resize();
     [[nodiscard]] glm::dvec3 composed(const cloud::CloudMap::Sight& sight, const DeferredAir& air,
@@ -90,7 +106,14 @@ class CloudFrame {
     void refresh_tile(int tile, const SkyLight& light, std::uint64_t tone_revision) noexcept;
     [[nodiscard]] bool serves(int tile, std::uint64_t tone_revision) const noexcept;
 
+    [[nodiscard]] double shaded_from_m(int tile) const noexcept {
+        return shadow_ != nullptr ? shadow_->nearest_m(map_.cone(tile)) : 0.0;
+    }
+
     cloud::CloudMap map_;
+    const GroundShadow* shadow_ = nullptr;
+    bool serves_things_ = false;
+    std::vector<float> things_;
     bool shown_ = false;
     bool jumped_ = false;
     std::vector<glm::vec3> probes_;

@@ -72,7 +72,7 @@ void copy_rgb(const CloudBackdrop::Nodes& from, float (*to)[cloud::kNodeFloats])
 }  // namespace
 
 void look_up(CloudBackdrop& backdrop, const cloud::CloudMap& map, int tile, const SkyLight& light,
-             const DeferredAir& air) noexcept {
+             const DeferredAir& air, const GroundShadow* shadow) noexcept {
     const MapGeometry& geometry = map.geometry();
     const MapGeometry::Texel corner = geometry.corner(tile);
     const Snapshot& latest = *map.parts().back().snapshot;
@@ -96,6 +96,8 @@ void look_up(CloudBackdrop& backdrop, const cloud::CloudMap& map, int tile, cons
         const double distance_m = inverse_m > 0.0 ? length / inverse_m : kUsual_m;
         put_air(air.between(direction / length, distance_m), distance_m, i, backdrop.extinction,
                 backdrop.convergence);
+        put(backdrop.sunlit, i,
+            shadow != nullptr && at.lower ? shadow->seen_sunlit_cd_m2(air, direction) : glm::dvec3{0.0});
         if (map.near_map() == nullptr) continue;
         put_air(air.between(direction / length, kNearUsual_m), kNearUsual_m, i, backdrop.near_extinction,
                 backdrop.near_convergence);
@@ -187,6 +189,40 @@ void CloudTile::take(const cloud::CloudMap& map, int tile, const CloudBackdrop& 
     tile_.near = near.any;
     if (near.any) take_near(backdrop, near);
     covered_ = near.any && hides_far(map);
+    tile_.clear = !map.may_show(tile);
+    tile_.shaded = false;
+}
+
+void CloudTile::shade(const GroundShadow& shadow, const CloudBackdrop& backdrop) noexcept {
+    shadow_ = &shadow;
+    tile_.shaded = true;
+    copy_rgb(backdrop.sunlit, tile_.sunlit);
+}
+
+// Shadows and gaps where the beam comes to the ground.
+void CloudTile::shade_row(int row) noexcept {
+    const auto texel_rad = static_cast<float>(geometry_.worst_texel_rad());
+    for (int i = 0; i < kToneRow; ++i) {
+        GroundShadow::Place place;
+        const glm::vec3 direction = geometry_.direction(tile_.column + i, tile_.row + row, tile_.lower);
+        const float over_mean =
+            shadow_->meets(direction, texel_rad, place) ? shadow_->over_mean(place) : 0.0F;
+        for (auto& shade : row_.shade)
+            shade[i] *= over_mean;
+    }
+}
+
+void CloudTile::gather(int row) noexcept {
+    cloud::tone_kernel().gather(tile_, row, row_);
+    if (tile_.shaded) shade_row(row);
+    if (flashes_.count > 0) add_flashes(row);
+}
+
+void CloudTile::tell_things(int row, std::span<float> things) const noexcept {
+    const std::size_t place = static_cast<std::size_t>(row) * kToneRow;
+    cloud::tone_kernel().seen(row_, &things[4 * place]);
+    std::copy_n(row_.inverse_per_m, kToneRow, &things[std::size_t{4} * cloud::kTileTexels + place]);
+    std::copy_n(row_.near_passed, kToneRow, &things[std::size_t{5} * cloud::kTileTexels + place]);
 }
 
 void CloudTile::take_parts(const cloud::CloudMap& map) noexcept {
@@ -284,32 +320,45 @@ void CloudTile::cover(const cloud::ToneLaw& law, float* out) const noexcept {
 
 // One screen's rig has the codes behind at the nodes; where they bend, and for several screens, they are
 // worked out.
-void CloudTile::tone(std::span<const cloud::ToneLaw> laws, std::span<std::vector<float>> out,
-                     std::size_t first) noexcept {
+void CloudTile::tell_codes(const cloud::ToneLaw& law) noexcept {
+    for (int c = 0; c < 3; ++c) {
+        copy(tile_.smooth[cloud::kBehind + c], tile_.smooth[cloud::kBehindCode + c]);
+        copy(tile_.ground[c], tile_.ground_code[c]);
+    }
+    float(*codes)[cloud::kNodeFloats] = tile_.smooth + cloud::kBehindCode;
+    cloud::tone_kernel().show(law, codes[0], codes[1], codes[2]);
+    codes = tile_.ground_code;
+    if (tile_.horizon) cloud::tone_kernel().show(law, codes[0], codes[1], codes[2]);
+}
+
+float CloudTile::tone(std::span<const cloud::ToneLaw> laws, std::span<std::vector<float>> out,
+                      std::size_t first, std::span<float> things) noexcept {
     const cloud::ToneKernel& kernel = cloud::tone_kernel();
+    tile_.depths = !things.empty();
     if (covered_) {
+        tile_.codes = false;
+        for (int y = 0; tile_.depths && y < kToneRow; ++y) {
+            gather(y);
+            tell_things(y, things);
+        }
         for (std::size_t screen = 0; screen < laws.size(); ++screen)
             cover(laws[screen], &out[screen][first]);
-        return;
+        // The eye's way does not move it.
+        return 0.0F;
     }
     tile_.codes = laws.size() == 1 && !steep_;
-    if (tile_.codes) {
-        for (int c = 0; c < 3; ++c) {
-            copy(tile_.smooth[cloud::kBehind + c], tile_.smooth[cloud::kBehindCode + c]);
-            copy(tile_.ground[c], tile_.ground_code[c]);
-        }
-        float(*codes)[cloud::kNodeFloats] = tile_.smooth + cloud::kBehindCode;
-        kernel.show(laws.front(), codes[0], codes[1], codes[2]);
-        codes = tile_.ground_code;
-        if (tile_.horizon) kernel.show(laws.front(), codes[0], codes[1], codes[2]);
-    }
+    if (tile_.codes) tell_codes(laws.front());
     for (int y = 0; y < kToneRow; ++y) {
-        kernel.gather(tile_, y, row_);
-        if (flashes_.count > 0) add_flashes(y);
+        gather(y);
+        if (tile_.depths) tell_things(y, things);
         for (std::size_t screen = 0; screen < laws.size(); ++screen)
             kernel.tone(laws[screen], row_, tile_.codes,
                         &out[screen][first + static_cast<std::size_t>(y * kToneRow * 4)]);
     }
+    float largest = 0.0F;
+    for (const std::vector<float>& texels : out)
+        largest = std::max(largest, kernel.largest_step(&texels[first]));
+    return largest;
 }
 
 }  // namespace skyig::render

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/cloud/shadow_map.h"
 #include "render/cloud_models.h"
 #include "render/dome_bend.h"
 #include "render/eye/point_threshold.h"
@@ -110,6 +111,7 @@ Cost cost_of(Pass pass) {
             return Cost::kNewTable;
         case Pass::kClouds:
         case Pass::kNearClouds:
+        case Pass::kCloudShadows:
             return Cost::kFrame;
         case Pass::kDome:
         case Pass::kWaves:
@@ -197,9 +199,9 @@ void plan_over_pictures(Plan& plan, const Scene& scene) {
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables", "sun sky",       "moon sky",  "night sky",  "veil",    "clouds",   "near clouds",
-        "dome",       "waves",         "milky way", "stars",      "corona",  "sun disc", "moon disc",
-        "wet things", "precipitation", "sun glare", "moon glare", "pattern", "overlay"};
+        "air tables",    "sun sky",    "moon sky",      "night sky", "veil",       "clouds",  "near clouds",
+        "cloud shadows", "dome",       "waves",         "milky way", "stars",      "corona",  "sun disc",
+        "moon disc",     "wet things", "precipitation", "sun glare", "moon glare", "pattern", "overlay"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -265,6 +267,7 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kVeil, {false, "not decided yet"});
     put(plan, Pass::kClouds, {false, "not decided yet"});
     put(plan, Pass::kNearClouds, {false, "not decided yet"});
+    put(plan, Pass::kCloudShadows, {false, "not decided yet"});
     put(plan, Pass::kDome,
         {true, plan.thins(Thin::kDome) ? "smooth light of all directions, coarser: thinned out"
                                        : "smooth light of all directions"});
@@ -323,6 +326,16 @@ void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bo
                      : Verdict{false, "no layer is near the eye's height"});
     plan.passes[static_cast<std::size_t>(Pass::kClouds)].resolution = {2 * map_size, map_size};
     plan.passes[static_cast<std::size_t>(Pass::kNearClouds)].resolution = {2 * near_size, near_size};
+}
+
+void plan_cloud_shadows(Plan& plan, const cloud::ShadowMap& map, bool told) noexcept {
+    put(plan, Pass::kCloudShadows,
+        !plan.needs(Pass::kClouds) ? Verdict{false, "no layer has any clouds"}
+        : !map.shown()             ? Verdict{false, "neither Sun nor Moon stands high enough to cast any"}
+        : !told ? Verdict{false, "the ground lies in even light: no gaps, or nothing but gaps"}
+                : Verdict{true, "single clouds cast shadows; they ride on the cloud map"});
+    plan.passes[static_cast<std::size_t>(Pass::kCloudShadows)].resolution = {
+        cloud::ShadowMap::kLevels * cloud::ShadowMap::kCells, cloud::ShadowMap::kCells};
 }
 
 void plan_waves(Plan& plan, const Scene& scene, const sky::SeaWaves& waves, bool lit) noexcept {

@@ -16,6 +16,9 @@ namespace skyig::render {
 
 class DomeBend;
 struct DomeSize;
+namespace cloud {
+class ShadowMap;
+}
 
 /// When a pass costs.
 enum class Cost { kNewAir, kNewTable, kFrame, kChannel };
@@ -128,6 +131,9 @@ void plan_veil(Plan& plan, const Scene& scene, std::size_t segments) noexcept;
 /// Decides on the cloud maps. \param map_size  texels on the side of a half; \param near_size  likewise
 /// \param near_shown  whether clouds may stand round the eye
 void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bool near_shown) noexcept;
+
+/// Decides on the clouds' shadows, after plan_clouds(). \param told  whether they differ from the mean
+void plan_cloud_shadows(Plan& plan, const cloud::ShadowMap& map, bool told) noexcept;
 
 /// Decides on the waves of the sea, drawn over `resolution` of the dome's quads. \param waves  that a pixel
 /// resolves below the eye \param lit  whether Sun or Moon light the air over a sea

@@ -8,16 +8,17 @@
 namespace skyig::render {
 
 enum class Pass {
-    kAirTables,   ///< optical columns and multiple scattering of a new air
-    kSunSky,      ///< direction table of sunlit air
-    kMoonSky,     ///< direction table of moonlit air
-    kNightSky,    ///< direction table of airglow, zodiacal light, even starlight, towns
-    kVeil,        ///< light of fog, haze, dust and their like, on the dome's vertices
-    kClouds,      ///< map of far clouds for all channels
-    kNearClouds,  ///< map of clouds round the eye
-    kDome,        ///< smooth light of all directions, toned at the vertices
-    kWaves,       ///< waves of the sea, where pixels resolve them
-    kMilkyWay,    ///< what the Milky Way adds to even starlight
+    kAirTables,     ///< optical columns and multiple scattering of a new air
+    kSunSky,        ///< direction table of sunlit air
+    kMoonSky,       ///< direction table of moonlit air
+    kNightSky,      ///< direction table of airglow, zodiacal light, even starlight, towns
+    kVeil,          ///< light of fog, haze, dust and their like, on the dome's vertices
+    kClouds,        ///< map of far clouds for all channels
+    kNearClouds,    ///< map of clouds round the eye
+    kCloudShadows,  ///< map of single clouds' shadows on the ground
+    kDome,          ///< smooth light of all directions, toned at the vertices
+    kWaves,         ///< waves of the sea, where pixels resolve them
+    kMilkyWay,      ///< what the Milky Way adds to even starlight
     kStars,
     kCorona,  ///< what is left of the Sun in a total eclipse
     kSunDisc,
@@ -29,7 +30,7 @@ enum class Pass {
     kPattern,  ///< a test pattern in place of the sky
     kOverlay,  ///< texts over the picture
 };
-inline constexpr std::size_t kPassCount = 20;
+inline constexpr std::size_t kPassCount = 21;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 

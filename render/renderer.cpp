@@ -244,7 +244,7 @@ void Renderer::Impl::prepare_clouds() {
 }
 
 void Renderer::Impl::refresh_deferred() {
-    deferred->prepare(frame.air_between(scene), display.dither);
+    deferred->prepare(frame.air_between(scene), frame.clouds(), frame.ground_shadow(), display.dither);
 }
 
 Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality,
@@ -382,6 +382,8 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
     }
     if (!m.deferred) {
         m.deferred = std::make_unique<DeferredPass>();
+        m.frame.serve_things();
+        m.prepare_clouds();
         m.refresh_deferred();
     }
     m.pictures.begin(channel);
@@ -430,7 +432,11 @@ glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu, double di
     const shaders64::ToneParameters& tone = impl_->frame.tone();
     const DeferredAir* air = impl_->frame.air_between();
     if (air == nullptr) return shaders64::shown(rgb_cd_m2, tone);
-    return shaders64::shown(air->under_air(rgb_cd_m2, direction_enu, distance_m), tone);
+    const glm::dvec3 lit_cd_m2 =
+        rgb_cd_m2 * impl_->frame.ground_shadow().on_thing(direction_enu * distance_m);
+    const glm::dvec3 seen_cd_m2 = air->under_air(lit_cd_m2, direction_enu, distance_m);
+    return shaders64::shown(impl_->frame.clouds().before_thing(*air, seen_cd_m2, direction_enu, distance_m),
+                            tone);
 }
 
 }  // namespace skyig::render

@@ -123,6 +123,8 @@ void SkyFrame::refresh_clouds(const Scene& scene, double pixel_rad) {
     const bool going = clouds_.shown() && !tables_.jumped() && !clouds_.map().is_clear();
     if ((!plan_.needs(Pass::kClouds) && !going) || made_clouds_.maker == nullptr) {
         clouds_.stop();
+        ground_shadow_.stop();
+        plan_cloud_shadows(plan_, ground_shadow_.map(), false);
         return;
     }
     air_between(scene);
@@ -132,7 +134,16 @@ void SkyFrame::refresh_clouds(const Scene& scene, double pixel_rad) {
                           : quality_.cloud_tiles_a_frame;
     clouds_.follow(*made_clouds_.maker, scene, cloud_light_, light_, tables_.jumped(), size, tiles);
     clouds_.step_by(plan_.thins(Thin::kCloudMotion) ? kThinnedMotion : 1.0F);
+    ground_shadow_.update(*made_clouds_.maker, {scene, scene.eye, cloud_light_}, tables_.air(), light_,
+                          tables_.jumped());
+    clouds_.shade_ground(&ground_shadow_);
+    plan_cloud_shadows(plan_, ground_shadow_.map(), ground_shadow_.shown());
     plan_clouds(plan_, scene, size, cloud::NearMap::kSize, clouds_.map().near_map() != nullptr);
+}
+
+void SkyFrame::serve_things() noexcept {
+    clouds_.serve_things();
+    tone_clouds();
 }
 
 void SkyFrame::tone_clouds() noexcept {

@@ -1,6 +1,8 @@
 // What the frame loop tells of itself: snapshots while it runs, the report of a run.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "server/frame_loop.h"
 #include "server/from_config.h"
 #include "server/status/from_snapshot.h"
@@ -58,6 +60,8 @@ status::Facts FrameLoop::facts() const {
         facts.channels.push_back(channel.name);
     for (const world::SourceRule& rule : world::source_rules(config_))
         facts.sources.push_back({rule.name, rule.kind, rule.rights, {}});
+    facts.elevation_m = config_.weather.elevation_m;
+    facts.transition_s = config_.weather.transition_s;
     facts.ephemeris = ephemeris::name_of(ephemeris_model(config_));
     facts.earth_orientation = days_text(scenes_.orientation());
     return facts;
@@ -142,6 +146,10 @@ void FrameLoop::take_stock_of_world(status::Snapshot& snapshot) const {
     snapshot.world.scene_time_s = world.time_s();
     snapshot.world.ownship = world.ownship();
     snapshot.world.air = world.air();
+    const auto layers = world.weather().layers_of(protocol::cigi::WeatherScope::kGlobal, 0);
+    snapshot.world.layer_count = std::min(layers.size(), status::kMostLayers);
+    snapshot.world.layers_left_out = layers.size() - snapshot.world.layer_count;
+    std::copy_n(layers.begin(), snapshot.world.layer_count, snapshot.world.layers.begin());
     snapshot.world.adaptation_cd_m2 = parts_.painter.adaptation_cd_m2();
     snapshot.date_clamped = scenes_.date_clamped();
     snapshot.leap_seconds_assumed = scenes_.leap_seconds_assumed();

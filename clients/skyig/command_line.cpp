@@ -12,12 +12,12 @@
 #include "clients/skyig/decode_command.h"
 #include "clients/skyig/ephem/almanac.h"
 #include "clients/skyig/ephem/star_name.h"
+#include "clients/skyig/instructor_command.h"
 #include "clients/skyig/latency/latency_command.h"
 #include "clients/skyig/metar_command.h"
 #include "clients/skyig/options.h"
 #include "clients/skyig/rvr_command.h"
 #include "clients/skyig/sky_command.h"
-#include "clients/skyig/status/http_get.h"
 #include "clients/skyig/still/still_command.h"
 #include "clients/skyig/tone_command.h"
 #include "clients/skyig/validators.h"
@@ -29,9 +29,9 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 17> kVerbs{"host",  "latency", "shot",   "plan",  "channels", "bench",
-                                                  "ephem", "cloud",   "decode", "metar", "replay",   "record",
-                                                  "sky",   "status",  "top",    "tone",  "rvr"};
+constexpr std::array<std::string_view, 18> kVerbs{
+    "host",  "latency", "shot",   "plan", "channels", "bench", "ephem", "cloud", "decode",
+    "metar", "replay",  "record", "sky",  "status",   "top",   "tone",  "rvr",   "instructor"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -253,17 +253,6 @@ void add_ephem(CLI::App& app, EphemOptions& options, std::string& horizon) {
     app.footer(kEphemFooter);
 }
 
-/// "127.0.0.1:8004"; with `bare_port` also "8004", of this machine alone.
-CLI::Validator endpoint(bool bare_port) {
-    const auto check = [bare_port](std::string& text) -> std::string {
-        const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-        if (bare_port && digits) text.insert(0, "127.0.0.1:");
-        const auto read = protocol::transport::parse_endpoint(text);
-        return read ? std::string() : read.error();
-    };
-    return {check, bare_port ? "[ADDRESS:]PORT" : "ADDRESS:PORT"};
-}
-
 CLI::Validator ipv4() {
     const auto check = [](std::string& text) -> std::string {
         const auto read = protocol::transport::parse_ipv4(text);
@@ -306,14 +295,6 @@ void add_record(CLI::App& app, RecordOptions& options) {
     app.add_flag("--json", options.json, "tell the results as JSON");
 }
 
-CLI::Validator daemon_url() {
-    const auto check = [](std::string& text) -> std::string {
-        const auto read = status::parse_url(text);
-        return read ? std::string() : read.error();
-    };
-    return {check, "URL"};
-}
-
 void add_status(CLI::App& app, StatusOptions& options) {
     CLI::Option* url =
         app.add_option("--url", options.url, "where the daemon tells of itself (http://127.0.0.1:8006)")
@@ -353,6 +334,7 @@ struct Verbs {
     ToneOptions tone;
     RvrOptions rvr;
     LatencyOptions latency;
+    InstructorOptions instructor;
     std::string order = "little";
     std::string horizon = "almanac";
 };
@@ -390,6 +372,7 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
     add_tone(app, verbs.tone);
     add_rvr(app, verbs.rvr);
     add_latency(app, verbs.latency);
+    add_instructor(app, verbs.instructor);
 }
 
 void require_one_body(const EphemOptions& options) {
@@ -418,6 +401,10 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     if (app.got_subcommand("tone")) invocation.options = verbs.tone;
     if (app.got_subcommand("rvr")) invocation.options = verbs.rvr;
     if (app.got_subcommand("latency")) invocation.options = verbs.latency;
+    if (app.got_subcommand("instructor")) {
+        check_instructor(verbs.instructor);
+        invocation.options = verbs.instructor;
+    }
 }
 
 std::string usage_error(const char* what, const char* verb) {

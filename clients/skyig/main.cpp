@@ -4,6 +4,7 @@
 #include <exception>
 #include <variant>
 
+#include "clients/instructor/instructor.h"
 #include "clients/skyig/bench.h"
 #include "clients/skyig/channels.h"
 #include "clients/skyig/cloud.h"
@@ -47,6 +48,8 @@ int run(int argc, char** argv) {
     if (const auto* status = std::get_if<StatusOptions>(&invocation.options)) return run_status(*status);
     if (const auto* rvr = std::get_if<RvrOptions>(&invocation.options)) return run_rvr(*rvr);
     if (const auto* tone = std::get_if<ToneOptions>(&invocation.options)) return run_tone(*tone);
+    if (const auto* instructor = std::get_if<InstructorOptions>(&invocation.options))
+        return run_instructor(*instructor);
     if (const auto* sky = std::get_if<SkyOptions>(&invocation.options)) return run_sky(*sky);
     return invocation.exit_status;
 }

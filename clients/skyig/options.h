@@ -278,11 +278,24 @@ struct LatencyOptions {
     bool json = false;
 };
 
+/// skyig instructor: the web station.
+struct InstructorOptions {
+    std::string daemon_status = "http://127.0.0.1:8006";
+    std::string cigi_to = "127.0.0.1:8010";
+    std::string listen = "127.0.0.1:8080";
+    /// Asked of every page where it is not empty; needed to listen on another address than loopback.
+    std::string token;
+    /// Names of a reverse proxy.
+    std::vector<std::string> names;
+    /// Where own presets are kept; "default": in the user's state folder; empty: in memory alone.
+    std::string saved_path = "default";
+};
+
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
     std::variant<std::monostate, HostOptions, ShotOptions, PlanOptions, ChannelsOptions, BenchOptions,
                  EphemOptions, CloudOptions, LatencyOptions, DecodeOptions, MetarOptions, ReplayOptions,
-                 RecordOptions, SkyOptions, StatusOptions, ToneOptions, RvrOptions>
+                 RecordOptions, SkyOptions, StatusOptions, ToneOptions, RvrOptions, InstructorOptions>
         options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)

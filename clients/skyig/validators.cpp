@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "clients/skyig/status/http_get.h"
+#include "protocol/transport/endpoint.h"
 #include "render/sky_settings.h"
 #include "server/ephemeris/time.h"
 
@@ -33,6 +35,25 @@ CLI::Validator finite_in(double lo, double hi) {
 CLI::Validator sky_model_name() {
     return CLI::IsMember(
         std::vector<std::string>(render::kSkyModelNames.begin(), render::kSkyModelNames.end()));
+}
+
+/// "127.0.0.1:8004"; with `bare_port` also "8004", of this machine alone.
+CLI::Validator endpoint(bool bare_port) {
+    const auto check = [bare_port](std::string& text) -> std::string {
+        const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        if (bare_port && digits) text.insert(0, "127.0.0.1:");
+        const auto read = protocol::transport::parse_endpoint(text);
+        return read ? std::string() : read.error();
+    };
+    return {check, bare_port ? "[ADDRESS:]PORT" : "ADDRESS:PORT"};
+}
+
+CLI::Validator daemon_url() {
+    const auto check = [](std::string& text) -> std::string {
+        const auto read = status::parse_url(text);
+        return read ? std::string() : read.error();
+    };
+    return {check, "URL"};
 }
 
 }  // namespace skyig::clients

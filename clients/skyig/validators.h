@@ -13,6 +13,12 @@ namespace skyig::clients {
 /// CLI::Range lets NaN through: no comparison with it is true.
 [[nodiscard]] CLI::Validator finite_in(double lo, double hi);
 
+/// "127.0.0.1:8004". \param bare_port  a port alone is one of this machine, and written out
+[[nodiscard]] CLI::Validator endpoint(bool bare_port);
+
+/// Where a daemon tells of itself.
+[[nodiscard]] CLI::Validator daemon_url();
+
 /// A model of the day sky.
 [[nodiscard]] CLI::Validator sky_model_name();
 

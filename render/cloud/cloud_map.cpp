@@ -7,9 +7,6 @@ namespace skyig::render::cloud {
 
 namespace {
 
-// The slot of the near map's source; the snapshots have those before it.
-constexpr std::size_t kNearSlot = CloudMaker::kSlots - 1;
-
 // Beyond where density ends, what an eye that climbs may cover while a snapshot serves.
 constexpr double kNearReserve_m = 100.0;
 
@@ -67,10 +64,25 @@ const CloudLayer* layer_of(const Weather& weather, std::uint32_t seed) noexcept 
     return found == clouds.end() ? nullptr : &*found;
 }
 
-/// Whether the eye was carried to another place since the frame before: no craft covers so much in one.
+/// Whether the eye was carried to another place since the frame before: no craft covers so much in one. Or
+/// beside a pole, where the directions that the map is fixed to turn under the eye.
 bool has_leapt(const Eye& before, const Eye& now) noexcept {
+    constexpr double kMostTurn_rad = 0.1;
     const glm::dvec3 way_m = eye_offset_m(before, now);
-    return std::hypot(way_m.x, way_m.y) > 500.0 + 0.02 * std::abs(now.height_m);
+    return std::hypot(way_m.x, way_m.y) > 500.0 + 0.02 * std::abs(now.height_m) ||
+           std::abs(axes_turn_rad(before, now)) > kMostTurn_rad;
+}
+
+/// Where the eye will be; those that come near a pole are not led, for latitude and longitude go on to
+/// nowhere there.
+Eye led(Eye eye, const Eye& motion_a_frame, double frames) noexcept {
+    constexpr double kLast_deg = 89.98;
+    if (std::abs(eye.latitude_deg + frames * motion_a_frame.latitude_deg) < kLast_deg) {
+        eye.latitude_deg += frames * motion_a_frame.latitude_deg;
+        eye.longitude_deg += frames * motion_a_frame.longitude_deg;
+    }
+    eye.height_m += frames * motion_a_frame.height_m;
+    return eye;
 }
 
 }  // namespace
@@ -145,9 +157,7 @@ Frozen CloudMap::frozen_at(const MapFrame& frame, const Eye& eye) const noexcept
 
 void CloudMap::begin(CloudMaker& maker, const MapFrame& frame, double frames_ahead) {
     CloudMoment moment = frame.moment;
-    moment.eye.latitude_deg += frames_ahead * motion_a_frame_.latitude_deg;
-    moment.eye.longitude_deg += frames_ahead * motion_a_frame_.longitude_deg;
-    moment.eye.height_m += frames_ahead * motion_a_frame_.height_m;
+    moment.eye = led(moment.eye, motion_a_frame_, frames_ahead);
     next_grows_ = have_grown(frozen_weather_, frame.moment.scene.weather);
     march_frames_ = 0;
     frozen_eye_ = frame.moment.eye;
@@ -257,7 +267,7 @@ void CloudMap::show_near(CloudMaker& maker, const MapFrame& frame) {
     frozen.range = {0.0F, static_cast<float>(kNearRange_m)};
     // All of a tile that is seen is asked for.
     const double margin_rad = 1.5 * kTile * geometry_.worst_texel_rad();
-    near_rays_ = near_.march(maker.freeze(kNearSlot, frame.moment), frame.views, margin_rad, frozen);
+    near_rays_ = near_.march(maker.freeze(CloudMaker::kNearSlot, frame.moment), frame.views, margin_rad, frozen);
 }
 
 void CloudMap::tell_parts(const MapFrame& frame) noexcept {

@@ -16,10 +16,25 @@ constexpr CloudSample kNoCloud{};
 }  // namespace
 
 glm::dvec3 eye_offset_m(const Eye& from, const Eye& to) noexcept {
+    const double north_rad = glm::radians(to.latitude_deg - from.latitude_deg);
+    const double east_rad = glm::radians(std::remainder(to.longitude_deg - from.longitude_deg, 360.0));
+    const double from_rad = glm::radians(from.latitude_deg);
+    const double to_rad = glm::radians(to.latitude_deg);
+    // Of the unit vector to the other place: nothing cancels where it is near by.
+    const double half = std::sin(0.5 * east_rad);
+    const double bent = 2.0 * half * half * std::cos(to_rad);
+    const double east = std::cos(to_rad) * std::sin(east_rad);
+    const double north = std::sin(north_rad) + bent * std::sin(from_rad);
+    const double up = std::cos(north_rad) - bent * std::cos(from_rad);
+    const double aside = std::hypot(east, north);
+    const double scale = aside > 0.0 ? std::atan2(aside, up) / aside : 1.0;
     const double radius_m = kEarthRadius_m + from.height_m;
-    const double east_deg = std::remainder(to.longitude_deg - from.longitude_deg, 360.0);
-    return {glm::radians(east_deg) * std::cos(glm::radians(from.latitude_deg)) * radius_m,
-            glm::radians(to.latitude_deg - from.latitude_deg) * radius_m, to.height_m - from.height_m};
+    return {radius_m * scale * east, radius_m * scale * north, to.height_m - from.height_m};
+}
+
+double axes_turn_rad(const Eye& from, const Eye& to) noexcept {
+    const double east_rad = glm::radians(std::remainder(to.longitude_deg - from.longitude_deg, 360.0));
+    return east_rad * std::sin(glm::radians(0.5 * (from.latitude_deg + to.latitude_deg)));
 }
 
 void Snapshot::resize(const MapGeometry& geometry, std::size_t probes) {

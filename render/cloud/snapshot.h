@@ -33,8 +33,12 @@ struct Frozen {
     double straight_horizon_rad = 0.0;
 };
 
-/// East, north, up, metres: of an eye from another one near by, on a sphere.
+/// East, north, up of the first eye, metres: of another one near by, along the ground of a sphere and up.
+/// Poles are places as any other.
 [[nodiscard]] glm::dvec3 eye_offset_m(const Eye& from, const Eye& to) noexcept;
+/// By how much east and north of one eye stand turned against those of another one near by: little but near
+/// poles.
+[[nodiscard]] double axes_turn_rad(const Eye& from, const Eye& to) noexcept;
 
 class Snapshot {
   public:

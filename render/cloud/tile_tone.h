@@ -59,9 +59,13 @@ struct ToneTile {
     float horizon_sine;
     bool near;   ///< near clouds are there
     bool codes;  ///< kBehindCode is told
+    bool clear;  ///< no clouds are seen: shadows alone
+    bool shaded;
+    bool depths;  ///< near_passed and inverse_per_m of rows are wanted
     float smooth[kToneChannels][kNodeFloats];
     float ground[3][kNodeFloats];       ///< in the place of kBehind
     float ground_code[3][kNodeFloats];  ///< of kBehindCode
+    float sunlit[3][kNodeFloats];       ///< of the ground under all of the beam that casts shadows
     float near_passed[kNodeFloats];
     TonePart parts[2];
     int part_count;
@@ -73,6 +77,10 @@ struct ToneRow {
     float passed[kToneRow];    ///< of all light behind, by all clouds
     float reach_m[kToneRow];   ///< distance times opacity
     float smooth[kToneChannels][kToneRow];
+    float near_passed[kToneRow];    ///< of `passed`, by near clouds
+    float inverse_per_m[kToneRow];  ///< over the distance of far ones, smooth where there are none
+    /// What shadows and gaps add to what is behind, not told in kBehind; gathered: sunlit.
+    float shade[3][kToneRow];
 };
 
 struct ToneKernel {
@@ -83,8 +91,14 @@ struct ToneKernel {
     /// \param out  kToneRow times red, green, blue and factor: a display code c behind becomes c * factor +
     /// colour
     void (*tone)(const ToneLaw& law, const ToneRow& row, bool codes, float* out);
+    /// \param out  kToneRow times what is seen of the clouds with the air between, red, green, blue, and
+    /// `passed`
+    void (*seen)(const ToneRow& row, float* out);
     /// A row, as tone() has it, of what nothing is seen behind. \param codes  red, green, blue at nodes
     void (*cover)(const float (*codes)[kNodeFloats], Fold fold, int row, float* out);
+    /// Largest step of a component from a texel to its neighbours. \param texels  kToneRow rows as tone() has
+    /// them
+    float (*largest_step)(const float* texels);
     /// shown() of linear Rec.709, kNodeFloats of each, in place.
     void (*show)(const ToneLaw& law, float* red, float* green, float* blue);
 };

@@ -24,7 +24,35 @@ Json overload_json(const Account& account) {
             {"exhausted", thinning.exhausted},         {"reason", thinning_reason(thinning)}};
 }
 
-Json world_json(const WorldState& world) {
+/// Heights above the ellipsoid. Zeros of visibility, aerosol and wind: told none.
+Json layer_json(const protocol::cigi::WeatherControl& layer) {
+    return {{"id", layer.layer_id},
+            {"enabled", layer.weather_enable},
+            {"cloud_type", static_cast<int>(layer.cloud_type)},
+            {"severity", layer.severity},
+            {"lightning", layer.random_lightning},
+            {"base_m", layer.base_elevation},
+            {"top_m", layer.base_elevation + layer.thickness},
+            {"bottom_band_m", layer.transition_band},
+            {"top_band_m", layer.top_transition_band},
+            {"coverage_pct", layer.coverage},
+            {"visibility_m", layer.visibility},
+            {"aerosol_g_m3", layer.aerosol},
+            {"wind_m_s", layer.wind_horizontal},
+            {"wind_from_deg", layer.wind_direction}};
+}
+
+Json weather_json(const Facts& facts, const WorldState& world) {
+    Json layers = Json::array();
+    for (std::size_t i = 0; i < world.layer_count; ++i)
+        layers.push_back(layer_json(world.layers[i]));
+    return {{"elevation_m", facts.elevation_m},
+            {"transition_s", facts.transition_s},
+            {"layers", layers},
+            {"layers_left_out", world.layers_left_out}};
+}
+
+Json world_json(const Facts& facts, const WorldState& world) {
     const world::Ownship& ownship = world.ownship;
     return {{"mode", protocol::cigi::mode_name(world.mode)},
             {"utc", ephemeris::to_iso(world.utc, 3)},
@@ -46,6 +74,7 @@ Json world_json(const WorldState& world) {
               {"humidity_pct", world.air.humidity_pct},
               {"wind_horizontal_m_s", world.air.wind_horizontal_m_s},
               {"wind_from_deg", world.air.wind_from_deg}}},
+            {"weather", weather_json(facts, world)},
             {"sun", {{"elevation_deg", world.sun_elevation_deg}, {"azimuth_deg", world.sun_azimuth_deg}}},
             {"moon",
              {{"elevation_deg", world.moon_elevation_deg},
@@ -146,7 +175,7 @@ std::string to_json(const Account& account) {
     json["recent"] = recent_json(account.snapshot.record.recent());
     json["pace"] = account.facts.pace;
     json["overload"] = overload_json(account);
-    json["world"] = world_json(account.snapshot.world);
+    json["world"] = world_json(account.facts, account.snapshot.world);
     json["sources"] = Json::array();
     for (std::size_t i = 0; i < account.facts.sources.size(); ++i)
         json["sources"].push_back(source_json(account, i));

@@ -62,7 +62,10 @@ HeadState read_request_line(std::string_view line, HttpRequest& request) noexcep
     request.method = line.substr(0, method);
     request.path = line.substr(method + 1, target - method - 1);
     if (request.path.find(' ') != std::string_view::npos) return HeadState::kBad;
-    request.path = request.path.substr(0, request.path.find_first_of("?#"));
+    const std::size_t query = request.path.find_first_of("?#");
+    if (query != std::string_view::npos && request.path[query] == '?')
+        request.query = request.path.substr(query + 1);
+    request.path = request.path.substr(0, query);
     return version == "HTTP/1.1" || version == "HTTP/1.0" ? HeadState::kComplete : HeadState::kBadVersion;
 }
 
@@ -72,6 +75,8 @@ std::string_view reason_phrase(int status) noexcept {
             return "OK";
         case 400:
             return "Bad Request";
+        case 401:
+            return "Unauthorized";
         case 403:
             return "Forbidden";
         case 404:
@@ -106,15 +111,26 @@ Head read_head(std::string_view bytes) noexcept {
     std::string_view rest = bytes.substr(0, end);
     Head head;
     head.state = read_request_line(take_line(rest), head.request);
+    head.request.fields = rest;
     while (head.state == HeadState::kComplete && !rest.empty()) {
         const std::string_view line = take_line(rest);
         const std::size_t colon = line.find(':');
         if (colon == std::string_view::npos || colon == 0) return {HeadState::kBad, {}};
-        if (!same_word(line.substr(0, colon), "host")) continue;
-        const std::string_view host = trimmed(line.substr(colon + 1));
-        head.request.host = host.substr(0, host.rfind(':'));
     }
+    const std::string_view host = field(head.request, "host");
+    head.request.host = host.substr(0, host.rfind(':'));
     return head;
+}
+
+std::string_view field(const HttpRequest& request, std::string_view name) noexcept {
+    std::string_view rest = request.fields;
+    while (!rest.empty()) {
+        const std::string_view line = take_line(rest);
+        const std::size_t colon = std::min(line.find(':'), line.size());
+        if (same_word(line.substr(0, colon), name) && colon < line.size())
+            return trimmed(line.substr(colon + 1));
+    }
+    return {};
 }
 
 bool is_local_name(std::string_view host) noexcept {
@@ -127,10 +143,11 @@ std::string answer_head(const HttpAnswer& answer) {
         answer.endless ? std::string()
                        : fmt::format("Content-Length: {}\r\n", answer.body ? answer.body->size() : 0);
     return fmt::format(
-        "HTTP/1.1 {} {}\r\nContent-Type: {}\r\n{}{}Cache-Control: no-store\r\n"
+        "HTTP/1.1 {} {}\r\nContent-Type: {}\r\n{}{}{}Cache-Control: no-store\r\n"
         "X-Content-Type-Options: nosniff\r\nConnection: close\r\n\r\n",
         answer.status, reason_phrase(answer.status), answer.content_type, length,
-        answer.status == 405 ? "Allow: GET, HEAD\r\n" : "");
+        answer.status == 405 ? "Allow: GET, HEAD\r\n" : "",
+        answer.more_fields);
 }
 
 }  // namespace skyig::server::status

@@ -19,9 +19,16 @@ struct HttpRequest {
     std::string_view method;
     /// Without query and fragment; not decoded: no page has a name that needs it.
     std::string_view path;
+    /// What stands behind a '?', as sent.
+    std::string_view query;
     /// Without port, as sent; empty if there is none.
     std::string_view host;
+    /// All header lines.
+    std::string_view fields;
 };
+
+/// The value of a header field, without blanks around it; empty if there is none.
+[[nodiscard]] std::string_view field(const HttpRequest& request, std::string_view name) noexcept;
 
 struct HttpAnswer {
     int status = 200;
@@ -32,6 +39,8 @@ struct HttpAnswer {
     /// something to send. Then the answer is complete, or, where it is endless, goes on with the next part.
     std::function<std::shared_ptr<const std::string>()> later{};
     bool endless = false;
+    /// More header lines, each with its CR LF.
+    std::string_view more_fields{};
 };
 
 /// One line as a whole answer.

@@ -73,6 +73,9 @@ struct AspectState {
     world::HoldReason reason = world::HoldReason::kFirst;
 };
 
+/// Global weather layers that are told one by one; more are only counted.
+inline constexpr std::size_t kMostLayers = 32;
+
 /// What is drawn.
 struct WorldState {
     protocol::cigi::IgMode mode = protocol::cigi::IgMode::kStandby;
@@ -81,6 +84,10 @@ struct WorldState {
     double scene_time_s = 0.0;
     world::Ownship ownship;
     world::AirState air;
+    /// As they were set; what is on its way there is `transition_s` of the facts.
+    std::array<protocol::cigi::WeatherControl, kMostLayers> layers{};
+    std::size_t layer_count = 0;
+    std::size_t layers_left_out = 0;
     /// Airless, topocentric.
     double sun_elevation_deg = 0.0;
     double sun_azimuth_deg = 0.0;
@@ -168,6 +175,9 @@ struct Facts {
     std::vector<std::string> channels;
     /// The host first.
     std::vector<SourceFacts> sources;
+    /// Of the settings: what layers' heights count from there, and how long a change of weather takes.
+    double elevation_m = 0.0;
+    double transition_s = 0.0;
     std::string ephemeris;
     /// Days of the file of Earth orientation; empty without one.
     std::string earth_orientation;

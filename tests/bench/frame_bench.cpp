@@ -233,11 +233,14 @@ void print_clouds(const std::string& name, Scene scene, double pitch_deg, std::s
 void print_all_clouds(int rounds) {
     const Scene overcast = clouded(500.0, CloudGenus::kStratus, CloudModel::kLayer, 1.0);
     const Scene broken = clouded(500.0, CloudGenus::kCumulus, CloudModel::kVolume, 0.5);
+    const Scene above = clouded(4000.0, CloudGenus::kCumulus, CloudModel::kVolume, 0.4);
     const Scene inside = clouded(1700.0, CloudGenus::kStratus, CloudModel::kVolume, 1.0);
     for (const std::size_t channels : {std::size_t{1}, std::size_t{3}}) {
         print_clouds("overcast layer", overcast, 20.0, channels, rounds);
         print_clouds("broken volume", broken, 20.0, channels, rounds);
         print_clouds("in cloud", inside, 5.0, channels, rounds);
+        print_clouds("broken, above", above, -20.0, channels, rounds);
+        print_clouds("broken, below", broken, -10.0, channels, rounds);
     }
 }
 

@@ -70,7 +70,7 @@ TEST(MeanExtinction, IsThatOfTheMeanTransmittanceOfPatches) {
     EXPECT_NEAR(std::exp(-mean_extinction_per_m(thick) * 60.0), 0.6, 1e-9);
 }
 
-TEST(AreaShare, IsOneInsideAndFallsOverThePerimeter) {
+TEST(AreaWeight, IsOneInsideAndFallsOverThePerimeter) {
     // 4 km by 2 km with its long side to the north-east, corners of 500 m, 1 km of perimeter.
     WeatherArea area{.centre_m = {1000.0, 2000.0},
                      .axis_rad = 0.25 * std::numbers::pi,
