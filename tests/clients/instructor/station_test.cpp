@@ -124,6 +124,7 @@ TEST_F(StationTest, APresetIsOneMessageOfItsAirAndLayers) {
 
 TEST_F(StationTest, EveryPresetComesThroughPacketsAndStatusUnchanged) {
     for (const std::string_view name : config::kPresetNames) {
+        station_.daemon_says(daemon_.status("2026-06-21T12:00:00Z"), time_s_);
         ask({{"do", "preset"}, {"name", name}});
         const Json world = daemon_.status("2026-06-21T12:00:00Z")["world"];
         EXPECT_TRUE(is_shown(station_.weather(), world)) << name;
