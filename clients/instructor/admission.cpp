@@ -40,9 +40,9 @@ std::string_view query_value(std::string_view query, std::string_view key) noexc
 
 Refusal check_host(const HttpRequest& request, const AdmissionRules& rules) {
     if (!rules.loopback && !rules.token.empty()) return Refusal::kNone;
-    const bool ours = !request.host.empty() && (server::status::is_local_name(request.host) ||
-                                                std::find(rules.names.begin(), rules.names.end(),
-                                                          request.host) != rules.names.end());
+    const bool ours = !request.host.empty() &&
+                      (server::status::is_local_name(request.host) ||
+                       std::find(rules.names.begin(), rules.names.end(), request.host) != rules.names.end());
     return ours ? Refusal::kNone : Refusal::kHost;
 }
 

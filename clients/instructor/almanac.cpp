@@ -21,8 +21,8 @@ constexpr double kDay_s = 86'400.0;
 constexpr int kStep_min = 15;
 
 double elevation_deg(const glm::dvec3& direction_enu) noexcept {
-    const double degrees = 180.0 / std::numbers::pi *
-                           std::atan2(direction_enu.z, std::hypot(direction_enu.x, direction_enu.y));
+    const double degrees =
+        180.0 / std::numbers::pi * std::atan2(direction_enu.z, std::hypot(direction_enu.x, direction_enu.y));
     return std::round(degrees * 100.0) / 100.0;
 }
 

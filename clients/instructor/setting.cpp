@@ -41,8 +41,8 @@ class MemberReader {
         if (read >= low && read <= high) {
             value = read;
         } else {
-            fault_ = fmt::format("{}.{} is {}; it must be a number, {}..{}", path_, key, found->dump(), low,
-                                 high);
+            fault_ =
+                fmt::format("{}.{} is {}; it must be a number, {}..{}", path_, key, found->dump(), low, high);
         }
     }
     void flag(const char* key, bool& value) {
@@ -66,8 +66,7 @@ std::string_view name_of(LayerType type) noexcept {
 }
 
 std::optional<LayerType> type_named(std::string_view name) noexcept {
-    const auto* const found =
-        std::find(config::kLayerTypeNames.begin(), config::kLayerTypeNames.end(), name);
+    const auto* const found = std::find(config::kLayerTypeNames.begin(), config::kLayerTypeNames.end(), name);
     if (found == config::kLayerTypeNames.end()) return std::nullopt;
     return static_cast<LayerType>(found - config::kLayerTypeNames.begin());
 }
@@ -107,7 +106,8 @@ WeatherLayer layer_from_json(const Json& json, const std::string& path, std::str
     const Json type = json.is_object() ? json.value("type", Json()) : Json();
     const auto named = type.is_string() ? type_named(type.get<std::string>()) : std::nullopt;
     if (!named) {
-        fault = fmt::format("{}.type is {}; it must be a layer's type such as \"cumulus\"", path, type.dump());
+        fault =
+            fmt::format("{}.type is {}; it must be a layer's type such as \"cumulus\"", path, type.dump());
         return layer;
     }
     layer.type = *named;
@@ -160,9 +160,9 @@ std::optional<LayerType> type_of_status(int id, int cloud_type) {
         return static_cast<LayerType>(static_cast<int>(LayerType::kAltocumulus) + cloud_type - 1);
     constexpr int kFirstOther = 13;
     constexpr std::array<LayerType, kFirstOther> kTypes{
-        LayerType::kFog,  LayerType::kCumulus, LayerType::kCumulus, LayerType::kCumulus, LayerType::kRain,
-        LayerType::kSnow, LayerType::kSleet,   LayerType::kHail,    LayerType::kSand,    LayerType::kDust,
-        LayerType::kDrizzle, LayerType::kSmoke, LayerType::kHaze};
+        LayerType::kFog,     LayerType::kCumulus, LayerType::kCumulus, LayerType::kCumulus, LayerType::kRain,
+        LayerType::kSnow,    LayerType::kSleet,   LayerType::kHail,    LayerType::kSand,    LayerType::kDust,
+        LayerType::kDrizzle, LayerType::kSmoke,   LayerType::kHaze};
     if (id >= 0 && id < kFirstOther) return kTypes[static_cast<std::size_t>(id)];
     return std::nullopt;
 }
@@ -204,7 +204,8 @@ bool same_layer(const cigi::WeatherControl& layer, const Json& told) {
     const auto close = [&told](const char* key, float value) {
         return close_to(told.value(key, -1.0), static_cast<double>(value));
     };
-    return told.value("enabled", false) && told.value("cloud_type", -1) == static_cast<int>(layer.cloud_type) &&
+    return told.value("enabled", false) &&
+           told.value("cloud_type", -1) == static_cast<int>(layer.cloud_type) &&
            told.value("lightning", false) == layer.random_lightning &&
            told.value("severity", -1) == layer.severity && close("base_m", layer.base_elevation) &&
            close("top_m", layer.base_elevation + layer.thickness) && close("coverage_pct", layer.coverage) &&
@@ -269,8 +270,8 @@ protocol::Result<Setting, std::string> setting_from_json(const Json& json) {
         !json["layers"].is_array())
         return protocol::Error{std::string("weather must have an object \"air\" and a list \"layers\"")};
     if (json["layers"].size() > config::kMaxWeatherLayers)
-        return protocol::Error{fmt::format("layers holds {}; at most {}", json["layers"].size(),
-                                           config::kMaxWeatherLayers)};
+        return protocol::Error{
+            fmt::format("layers holds {}; at most {}", json["layers"].size(), config::kMaxWeatherLayers)};
     setting.air = air_from_json(json["air"], fault);
     MemberReader(json, "weather", fault).number("snow_pct", 0.0, 100.0, setting.snow_pct);
     for (std::size_t i = 0; i < json["layers"].size(); ++i)

@@ -39,7 +39,8 @@ std::string text_of(const Json& message, const char* key) {
 
 Json range_json(const config::Air& air) {
     const double extinction = -std::log(air.visibility_contrast) / air.visibility_m;
-    return render::fog::runway_visual_range(extinction, kLights_cd, kDay_cd_m2, air.visibility_contrast).range_m;
+    return render::fog::runway_visual_range(extinction, kLights_cd, kDay_cd_m2, air.visibility_contrast)
+        .range_m;
 }
 
 }  // namespace
@@ -271,17 +272,15 @@ std::string Station::state_text() const {
     Json saved = Json::array();
     for (const auto& [name, setting] : saved_.all())
         saved.push_back(name);
-    const Json state{{"type", "state"},
-                     {"weather", to_json(now_.weather)},
-                     {"preset", now_.preset},
-                     {"rvr_m", range_json(now_.weather.air)},
-                     {"clock",
-                      {{"running", now_.clock.running},
-                       {"speed", now_.clock.speed},
-                       {"asked", clock_asked_}}},
-                     {"undo", undo_.empty() ? Json(nullptr) : Json(undo_.back().what)},
-                     {"redo", redo_.empty() ? Json(nullptr) : Json(redo_.back().what)},
-                     {"saved", saved}};
+    const Json state{
+        {"type", "state"},
+        {"weather", to_json(now_.weather)},
+        {"preset", now_.preset},
+        {"rvr_m", range_json(now_.weather.air)},
+        {"clock", {{"running", now_.clock.running}, {"speed", now_.clock.speed}, {"asked", clock_asked_}}},
+        {"undo", undo_.empty() ? Json(nullptr) : Json(undo_.back().what)},
+        {"redo", redo_.empty() ? Json(nullptr) : Json(redo_.back().what)},
+        {"saved", saved}};
     return state.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -293,15 +292,18 @@ std::string Station::status_text(double time_s, const Json& port) const {
               {"weather_shown", !weather_asked_ || weather_shown()},
               {"said_again", said_again_},
               {"port", port}};
-    for (const char* key : {"version", "renderer", "rate_hz", "frames", "late_frames", "recent", "times",
-                            "host", "health", "uptime_s", "channels", "world", "sources", "authority", "plan"}) {
+    for (const char* key :
+         {"version", "renderer", "rate_hz", "frames", "late_frames", "recent", "times", "host", "health",
+          "uptime_s", "channels", "world", "sources", "authority", "plan"}) {
         if (const auto found = status_.find(key); found != status_.end()) json[key] = *found;
     }
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string Station::greeting_text() {
-    Json json{{"type", "hello"}, {"presets", Json::array()}, {"layer_types", config::kLayerTypeNames},
+    Json json{{"type", "hello"},
+              {"presets", Json::array()},
+              {"layer_types", config::kLayerTypeNames},
               {"fastest", kFastest}};
     for (const std::string_view name : config::kPresetNames)
         json["presets"].push_back({{"name", name}, {"title", preset_title(name)}});

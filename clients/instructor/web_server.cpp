@@ -234,8 +234,8 @@ void WebServer::read_frames(Client& client, std::string_view bytes) {
                 take_message(client, client.reader.message());
                 break;
             case Event::kPing:
-                push(client, std::make_shared<const std::string>(
-                                 make_frame(Opcode::kPong, client.reader.message())));
+                push(client,
+                     std::make_shared<const std::string>(make_frame(Opcode::kPong, client.reader.message())));
                 break;
             case Event::kClose:
                 end(client, make_frame(Opcode::kClose, client.reader.message()));

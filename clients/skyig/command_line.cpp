@@ -12,9 +12,9 @@
 #include "clients/skyig/decode_command.h"
 #include "clients/skyig/ephem/almanac.h"
 #include "clients/skyig/ephem/star_name.h"
+#include "clients/skyig/instructor_command.h"
 #include "clients/skyig/metar_command.h"
 #include "clients/skyig/options.h"
-#include "clients/skyig/instructor_command.h"
 #include "clients/skyig/rvr_command.h"
 #include "clients/skyig/sky_command.h"
 #include "clients/skyig/still/still_command.h"
@@ -28,9 +28,9 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 17> kVerbs{"host",   "shot",   "plan",  "channels", "bench",  "ephem",
-                                                  "cloud",  "decode", "metar", "replay",   "record", "sky",
-                                                  "status", "top",    "tone",  "rvr", "instructor"};
+constexpr std::array<std::string_view, 17> kVerbs{
+    "host",   "shot",   "plan", "channels", "bench", "ephem", "cloud", "decode",    "metar",
+    "replay", "record", "sky",  "status",   "top",   "tone",  "rvr",   "instructor"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);

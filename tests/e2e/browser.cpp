@@ -77,11 +77,19 @@ Browser::Browser() {
     posix_spawnattr_t attributes{};
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    std::vector<std::string> words{kProgram, "--headless=new", "--remote-debugging-pipe", "--no-sandbox",
-                                   "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
-                                   "--disable-extensions", "--disable-background-networking",
-                                   "--disable-component-update", "--hide-scrollbars",
-                                   "--user-data-dir=" + profile_.file("profile"), "about:blank"};
+    std::vector<std::string> words{kProgram,
+                                   "--headless=new",
+                                   "--remote-debugging-pipe",
+                                   "--no-sandbox",
+                                   "--disable-gpu",
+                                   "--disable-dev-shm-usage",
+                                   "--no-first-run",
+                                   "--disable-extensions",
+                                   "--disable-background-networking",
+                                   "--disable-component-update",
+                                   "--hide-scrollbars",
+                                   "--user-data-dir=" + profile_.file("profile"),
+                                   "about:blank"};
     std::vector<char*> arguments;
     for (std::string& word : words)
         arguments.push_back(word.data());
@@ -95,7 +103,8 @@ Browser::Browser() {
     from_ = from.read;
     if (failed != 0) throw std::runtime_error("the browser cannot be started");
     const Json page = call("Target.createTarget", {{"url", "about:blank"}});
-    session_ = call("Target.attachToTarget", {{"targetId", page["targetId"]}, {"flatten", true}})["sessionId"];
+    session_ =
+        call("Target.attachToTarget", {{"targetId", page["targetId"]}, {"flatten", true}})["sessionId"];
 }
 
 Browser::~Browser() {
@@ -113,7 +122,8 @@ Json Browser::read_message() {
         std::array<char, 65536> buffer;
         const ssize_t got =
             ::poll(&event, 1, kAnswerWithin_ms) > 0 ? ::read(from_, buffer.data(), buffer.size()) : 0;
-        if (got <= 0) throw std::runtime_error("the browser does not answer: " + read_text(profile_.file("log")));
+        if (got <= 0)
+            throw std::runtime_error("the browser does not answer: " + read_text(profile_.file("log")));
         come_.append(buffer.data(), static_cast<std::size_t>(got));
         end = come_.find('\0');
     }
@@ -149,8 +159,8 @@ void Browser::resize(int width_px, int height_px) {
 }
 
 Json Browser::evaluate(const std::string& expression) {
-    const Json result = call(
-        "Runtime.evaluate", {{"expression", expression}, {"awaitPromise", true}, {"returnByValue", true}});
+    const Json result = call("Runtime.evaluate",
+                             {{"expression", expression}, {"awaitPromise", true}, {"returnByValue", true}});
     if (result.contains("exceptionDetails"))
         throw std::runtime_error(expression + ": " + result["exceptionDetails"].dump());
     return result["result"].value("value", Json());

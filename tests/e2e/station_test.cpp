@@ -56,7 +56,8 @@ class Station : public ::testing::Test {
             fmt::format("version = 1\n[daemon]\nrate_hz = 20\n[host]\nenabled = false\n[[source]]\nname = "
                         "\"instructor\"\nkind = \"cigi\"\nlisten = \"127.0.0.1:{}\"\nowns = [\"time\", "
                         "\"weather\"]\n[status]\nlisten = \"127.0.0.1:0\"\n[start]\nutc = "
-                        "\"2026-06-21T12:00:00Z\"\nheight_m = 500\n[weather]\npreset = \"cavok\"\ntransition_s "
+                        "\"2026-06-21T12:00:00Z\"\nheight_m = 500\n[weather]\nclouds = \"layer\"\npreset = "
+                        "\"cavok\"\ntransition_s "
                         "= 0.3\n{}",
                         cigi, channel_toml("only", 96, 64, 0)));
         daemon_.emplace(std::vector<std::string>{SKYIGD_PROGRAM, "--config", config, "--headless"});
@@ -86,8 +87,8 @@ class Station : public ::testing::Test {
         const Json told = browser_->evaluate(kPicture);
         return told.is_array() ? told.get<std::vector<double>>() : std::vector<double>();
     }
-    static bool comes(const std::function<bool()>& it, std::chrono::seconds limit = kPatience) {
-        const auto end = std::chrono::steady_clock::now() + limit;
+    static bool comes(const std::function<bool()>& it) {
+        const auto end = std::chrono::steady_clock::now() + kPatience;
         while (std::chrono::steady_clock::now() < end) {
             if (it()) return true;
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -110,21 +111,24 @@ class Station : public ::testing::Test {
         RecordProperty(what, std::to_string(by));
         return does;
     }
-    /// Once change and eye have come to rest, or nearly.
-    [[nodiscard]] std::vector<double> settled_picture() {
+    /// Once air and eye have come to rest: of a sky in which nothing moves.
+    [[nodiscard]] std::vector<double> picture_at_rest() {
+        constexpr int kInARow = 3;
         std::vector<double> before;
-        (void)comes([&] {
+        int alike = 0;
+        EXPECT_TRUE(comes([&] {
             std::this_thread::sleep_for(std::chrono::milliseconds(700));
             std::vector<double> now = picture();
-            const bool rests = !before.empty() && !now.empty() && difference(before, now) < 0.3;
+            alike = !before.empty() && !now.empty() && difference(before, now) < 0.3 ? alike + 1 : 0;
             before = std::move(now);
-            return rests;
-        }, std::chrono::seconds(4));
+            return alike == kInARow;
+        }));
         return before;
     }
     void click(const std::string& selector) {
         ASSERT_TRUE(comes([&] {
-            return browser_->evaluate(fmt::format("!!document.querySelector('{}:enabled')", selector)).get<bool>();
+            return browser_->evaluate(fmt::format("!!document.querySelector('{}:enabled')", selector))
+                .get<bool>();
         })) << selector;
         (void)browser_->evaluate(fmt::format("document.querySelector('{}').click()", selector));
     }
@@ -152,7 +156,7 @@ TEST_F(Station, WhatIsSetOnThePageIsToldAndSeen) {
 
     click("[data-preset=broken]");
     ASSERT_TRUE(shows([](const Json& world) { return has_cloud(world, kCumulus); })) << world();
-    const std::vector<double> low = settled_picture();
+    const std::vector<double> low = picture_at_rest();
     const Json grip = browser_->evaluate(
         "(() => { const box = document.querySelector('[data-handle=top] .touch').getBoundingClientRect();"
         "return [box.x + box.width / 2, box.y + box.height / 2]; })()");
@@ -175,7 +179,7 @@ TEST_F(Station, WhatIsSetOnThePageIsToldAndSeen) {
                    .get<std::string>()
                    .find("LSZH") != std::string::npos;
     }));
-    const std::vector<double> high = settled_picture();
+    const std::vector<double> high = picture_at_rest();
     click("#apply-metar");
     ASSERT_TRUE(shows([](const Json& world) {
         const Json& layers = world["weather"]["layers"];
@@ -186,7 +190,7 @@ TEST_F(Station, WhatIsSetOnThePageIsToldAndSeen) {
 
     click("#clear");
     ASSERT_TRUE(shows([](const Json& world) { return world["air"]["visibility_m"] == 50000.0; })) << world();
-    const std::vector<double> noon = settled_picture();
+    const std::vector<double> noon = picture_at_rest();
     click("[data-time=dusk]");
     ASSERT_TRUE(shows([](const Json& world) {
         return std::abs(world["sun"]["elevation_deg"].get<double>() + 3.0) < 1.0;
@@ -194,8 +198,9 @@ TEST_F(Station, WhatIsSetOnThePageIsToldAndSeen) {
     EXPECT_TRUE(differs("dusk", noon, 15.0));
 
     click("#undo");
-    ASSERT_TRUE(shows([](const Json& world) { return world["utc"].get<std::string>().starts_with("2026-06-21T12"); }))
-        << world();
+    ASSERT_TRUE(shows([](const Json& world) {
+        return world["utc"].get<std::string>().starts_with("2026-06-21T12");
+    })) << world();
     EXPECT_TRUE(differs("undone", noon, 5.0, false));
 }
 
@@ -204,9 +209,9 @@ TEST_F(Station, PagesFitAndTargetsCanBeTouched) {
     click("[data-preset=scattered]");
     ASSERT_TRUE(shows([](const Json& world) { return has_cloud(world, 7); }));
     for (const char* theme : {"night", "day"}) {
-        (void)browser_->evaluate(
-            fmt::format("document.documentElement.dataset.theme !== '{}' && document.querySelector('#theme').click()",
-                        theme));
+        (void)browser_->evaluate(fmt::format(
+            "document.documentElement.dataset.theme !== '{}' && document.querySelector('#theme').click()",
+            theme));
         for (const auto& [width, height] : {std::pair{1440, 900}, {1024, 768}, {390, 844}}) {
             browser_->resize(width, height);
             std::this_thread::sleep_for(std::chrono::milliseconds(400));

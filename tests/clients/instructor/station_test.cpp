@@ -173,7 +173,8 @@ TEST_F(StationTest, TheClockIsSetFrozenAndHurried) {
     EXPECT_EQ(set.hour, 17);
     EXPECT_EQ(set.minute, 30);
     EXPECT_FLOAT_EQ(set.seconds, 15.0F);
-    EXPECT_TRUE(set.date_time_valid && set.ephemeris_enable && set.sun_enable && set.moon_enable && set.star_enable);
+    EXPECT_TRUE(set.date_time_valid && set.ephemeris_enable && set.sun_enable && set.moon_enable &&
+                set.star_enable);
     EXPECT_FLOAT_EQ(set.star_intensity, 100.0F);
     time_s_ = 20.0;
     ask({{"do", "clock"}, {"running", false}});

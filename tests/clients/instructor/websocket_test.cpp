@@ -54,7 +54,8 @@ TEST(WebSocket, ReadsTheStandardsMaskedHello) {
     EXPECT_EQ(take(reader, std::string("\x81\x85\x37\xfa\x21\x3d\x7f\x9f\x4d\x51\x58", 11)), Event::kText);
     EXPECT_EQ(reader.message(), "Hello");
     EXPECT_EQ(make_frame(Opcode::kText, "Hello"), "\x81\x05Hello");
-    EXPECT_EQ(make_frame(Opcode::kBinary, std::string(256, 'x')).substr(0, 4), std::string("\x82\x7e\x01\x00", 4));
+    EXPECT_EQ(make_frame(Opcode::kBinary, std::string(256, 'x')).substr(0, 4),
+              std::string("\x82\x7e\x01\x00", 4));
     EXPECT_EQ(make_frame(Opcode::kBinary, std::string(65536, 'x')).substr(0, 10),
               std::string("\x82\x7f\0\0\0\0\0\x01\0\0", 10));
 }
@@ -68,15 +69,18 @@ TEST(WebSocket, PutsPartsTogetherWhereverTheyAreCut) {
         const Event event = reader.take(rest);
         if (event != Event::kNothing) events.emplace_back(event, reader.message());
     }
-    const std::vector<std::pair<Event, std::string>> wanted{{Event::kPing, "still there?"}, {Event::kText, "Hello"}};
+    const std::vector<std::pair<Event, std::string>> wanted{{Event::kPing, "still there?"},
+                                                            {Event::kText, "Hello"}};
     EXPECT_EQ(events, wanted);
 }
 
 TEST(WebSocket, RefusesWhatIsTooBigByItsHeadAlone) {
     MessageReader ten_megabytes(65536);
-    EXPECT_EQ(take(ten_megabytes, std::string("\x81\xff\0\0\0\0\0\x98\x96\x80\x37\xfa\x21\x3d", 14)), Event::kTooBig);
+    EXPECT_EQ(take(ten_megabytes, std::string("\x81\xff\0\0\0\0\0\x98\x96\x80\x37\xfa\x21\x3d", 14)),
+              Event::kTooBig);
     MessageReader most(65536);
-    EXPECT_EQ(take(most, std::string("\x81\xff\xff\xff\xff\xff\xff\xff\xff\xff\x37\xfa\x21\x3d", 14)), Event::kTooBig);
+    EXPECT_EQ(take(most, std::string("\x81\xff\xff\xff\xff\xff\xff\xff\xff\xff\x37\xfa\x21\x3d", 14)),
+              Event::kTooBig);
     MessageReader parts(10);
     EXPECT_EQ(take(parts, masked(0x01, "123456")), Event::kNothing);
     EXPECT_EQ(take(parts, masked(0x80, "78901")), Event::kTooBig);
@@ -132,7 +136,8 @@ TEST(Admission, AsksForTheTokenAndKnowsTheProxysName) {
     };
     EXPECT_EQ(upgrade(far, "?token=rather-secret"), Refusal::kNone);
     EXPECT_EQ(upgrade(far, "?a=b&token=rather-secret"), Refusal::kNone);
-    for (const char* wrong : {"", "?token=", "?token=rather-secre", "?token=rather-secret1", "?tokens=rather-secret"})
+    for (const char* wrong :
+         {"", "?token=", "?token=rather-secre", "?token=rather-secret1", "?tokens=rather-secret"})
         EXPECT_EQ(upgrade(far, wrong), Refusal::kToken) << wrong;
     EXPECT_EQ(upgrade({true, "", {"sky.example"}}, ""), Refusal::kNone);
     EXPECT_EQ(upgrade({true, "", {"other.example"}}, ""), Refusal::kHost);
