@@ -3,10 +3,15 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "config/overlay.h"
+#include "config/pattern.h"
 #include "config/screen.h"
+#include "config/warp/maps.h"
 #include "config/window.h"
 
 namespace skyig::config {
@@ -19,6 +24,9 @@ inline constexpr double kMaxOffset_m = 1000.0;
 /// Largest half angle of a frustum side, either sign.
 inline constexpr double kMaxHalfAngle_deg = 87.5;
 inline constexpr int kMaxChannelSize_px = 16384;
+
+/// How a warped channel is drawn: each thing where the screen shows it, or a flat picture that is resampled.
+enum class WarpDrawing : std::uint8_t { kDirect, kResampled };
 
 struct Channel {
     /// 1..32 of letters, digits, '-' and '_', unique: it becomes part of file names.
@@ -45,8 +53,19 @@ struct Channel {
     int group_id = 0;
     /// Its own, what it leaves out taken from [display]; not given: that of [display].
     std::optional<Screen> display;
+    /// Shown in place of the sky until the host asks for another.
+    Pattern pattern = Pattern::kOff;
+    /// Its own, what it leaves out taken from [overlay]; not given: that of [overlay].
+    std::optional<Overlay> overlay;
     /// Where it is shown; given for all channels where there are windows.
     std::optional<Viewport> viewport;
+    /// Null: the screen shows the frustum's flat picture.
+    std::shared_ptr<const warp::WarpMesh> warp;
+    WarpDrawing warp_drawing = WarpDrawing::kDirect;
+    /// Of the flat picture that is resampled, by the screen's pixels each way, 0.25..4.
+    double render_scale = 1.0;
+    /// As large as the channel; null: no other projector shines on its screen.
+    std::shared_ptr<const warp::BlendMask> blend;
 };
 
 /// The field on the other side of a picture, `other_px` long, that makes its pixels square.

@@ -117,12 +117,25 @@ double matching_field_deg(double field_deg, double own_px, double other_px) noex
     return 2.0 * std::atan(std::tan(field_deg * kPi / 360.0) * other_px / own_px) * 180.0 / kPi;
 }
 
+void know_frustum(TableReader& table) {
+    for (const std::span<const std::string_view> keys :
+         {std::span<const std::string_view>{kHalfAngles}, std::span<const std::string_view>{kFields},
+          std::span<const std::string_view>{kAttitude}}) {
+        for (const std::string_view key : keys)
+            table.any(key);
+    }
+}
+
+bool refuse_frustum(TableReader& table, std::string_view beside) {
+    const bool angles = leaves_out(table, beside, kHalfAngles);
+    const bool fields = leaves_out(table, beside, kFields);
+    const bool attitude = leaves_out(table, beside, kAttitude);
+    return angles && fields && attitude;
+}
+
 void read_frustum(TableReader& table, Channel& channel) {
     if (const Value* screen = table.any("screen"); screen != nullptr) {
-        const bool angles = leaves_out(table, "screen", kHalfAngles);
-        const bool fields = leaves_out(table, "screen", kFields);
-        const bool attitude = leaves_out(table, "screen", kAttitude);
-        if (angles && fields && attitude) read_flat_screen(table, *screen, channel);
+        if (refuse_frustum(table, "screen")) read_flat_screen(table, *screen, channel);
         return;
     }
     read_attitude(table, channel);

@@ -30,8 +30,21 @@ void read_own_screen(TableReader& table, const Screen& usual, Channel& channel) 
     own.finish();
 }
 
-ChannelPlaces read_channel(TableReader& table, ErrorList& errors, const Screen& usual,
-                           const std::vector<Window>& windows, Channel& channel) {
+void read_own_overlay(TableReader& table, const Overlay& usual, Channel& channel) {
+    if (table.any("overlay") == nullptr) return;
+    TableReader own = table.table("overlay");
+    channel.overlay = usual;
+    read_overlay(own, *channel.overlay);
+    own.finish();
+}
+
+void read_pattern(TableReader& table, Channel& channel) {
+    std::size_t index = 0;
+    if (table.choice("pattern", index, kPatternNames) != nullptr)
+        channel.pattern = static_cast<Pattern>(index);
+}
+
+ChannelPlaces read_channel(TableReader& table, ErrorList& errors, const Config& config, Channel& channel) {
     ChannelPlaces places;
     places.name = places.view_id = places.offset = table.place();
     if (const Value* value = table.text("name", channel.name); value != nullptr) {
@@ -45,18 +58,16 @@ ChannelPlaces read_channel(TableReader& table, ErrorList& errors, const Screen& 
         }
     }
     table.require("name", "a short text such as \"centre\"");
-    table.integer("width_px", channel.width_px, 1, kMaxChannelSize_px, "pixels");
-    table.integer("height_px", channel.height_px, 1, kMaxChannelSize_px, "pixels");
-    table.require("width_px", "the channel's width in pixels");
-    table.require("height_px", "the channel's height in pixels");
     read_offset(table, channel, places);
-    read_frustum(table, channel);
+    read_projection(table, errors.file(), channel);
     if (const Value* value = table.integer("view_id", channel.view_id, 0, 65535); value != nullptr) {
         places.view_id = value->place;
     }
     table.integer("group_id", channel.group_id, 0, 255);
-    read_own_screen(table, usual, channel);
-    read_viewport(table, errors, windows, channel);
+    read_own_screen(table, config.display, channel);
+    read_pattern(table, channel);
+    read_own_overlay(table, config.overlay, channel);
+    read_viewport(table, errors, config.windows, channel);
     table.finish();
     return places;
 }
@@ -103,8 +114,16 @@ void compare(ErrorList& errors, const std::vector<Channel>& channels,
 
 }  // namespace
 
-void read_channels(TableReader& root, ErrorList& errors, const Screen& usual,
-                   const std::vector<Window>& windows, std::vector<Channel>& channels) {
+void read_overlay(TableReader& table, Overlay& overlay) {
+    table.boolean("mode", overlay.mode);
+    table.boolean("rate", overlay.rate);
+    table.boolean("host", overlay.host);
+    table.boolean("host_lost", overlay.host_lost);
+    table.integer("scale", overlay.scale, 1, kMaxTextScale);
+}
+
+void read_channels(TableReader& root, ErrorList& errors, Config& config) {
+    std::vector<Channel>& channels = config.channels;
     const Value* value = root.any("channel");
     if (value == nullptr) {
         errors.add({}, "channel",
@@ -131,8 +150,7 @@ void read_channels(TableReader& root, ErrorList& errors, const Screen& usual,
         Channel& channel = channels.emplace_back();
         channel.view_id = static_cast<int>(number);
         TableReader reader(errors, table, item.place, fmt::format("channel[{}]", number));
-        places.push_back(table == nullptr ? ChannelPlaces{}
-                                          : read_channel(reader, errors, usual, windows, channel));
+        places.push_back(table == nullptr ? ChannelPlaces{} : read_channel(reader, errors, config, channel));
     }
     compare(errors, channels, places);
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "config/document.h"
@@ -14,12 +15,11 @@ std::string_view output_name(OutputKind kind) {
     return kind == OutputKind::kWindow ? "in windows" : "headless";
 }
 
-/// A path in the settings is meant from where they stand.
+}  // namespace
+
 std::string beside(const std::string& settings_file, const std::string& path) {
     return path.empty() ? path : (std::filesystem::path(settings_file).parent_path() / path).string();
 }
-
-}  // namespace
 
 LoadResult parse_config(std::string_view text, const std::string& file_name) {
     Table root;
@@ -51,6 +51,13 @@ Config default_config() {
     return config;
 }
 
+void show_pattern(Config& config, std::string_view pattern) noexcept {
+    const auto* const at = std::find(kPatternNames.begin(), kPatternNames.end(), pattern);
+    if (at == kPatternNames.end()) return;
+    for (Channel& channel : config.channels)
+        channel.pattern = static_cast<Pattern>(at - kPatternNames.begin());
+}
+
 std::string to_text(const ConfigError& error) {
     std::string text = error.file;
     if (error.line > 0) text += fmt::format(":{}:{}", error.line, error.column);
@@ -60,16 +67,22 @@ std::string to_text(const ConfigError& error) {
 
 namespace {
 
-/// ", weather cat1 of 2 layers"; empty where nothing is said of it.
+/// ", weather cat1 of 2 layers and 1 area"; empty where nothing is said of it.
 std::string weather_text(const Weather& weather) {
     std::string text;
     if (!weather.preset.empty()) text = fmt::format(", weather {}", weather.preset);
     if (!weather.metar.empty()) text = fmt::format(", weather of {}", weather.metar);
     if (weather.driver == WeatherDriver::kKeyframes)
         text += text.empty() ? ", weather by keyframes" : " by keyframes";
-    const std::size_t count = weather.layers.size();
-    if (count == 0) return text;
-    return fmt::format("{} of {} layer{}", text.empty() ? ", weather" : text, count, count == 1 ? "" : "s");
+    const auto counted = [](std::size_t count, std::string_view of) {
+        return fmt::format("{} {}{}", count, of, count == 1 ? "" : "s");
+    };
+    std::string parts;
+    if (!weather.layers.empty()) parts = counted(weather.layers.size(), "layer");
+    if (!weather.areas.empty())
+        parts += (parts.empty() ? "" : " and ") + counted(weather.areas.size(), "area");
+    if (parts.empty()) return text;
+    return fmt::format("{} of {}", text.empty() ? ", weather" : text, parts);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include "config/channel.h"
 #include "config/host.h"
 #include "config/night.h"
+#include "config/overlay.h"
+#include "config/pacing.h"
 #include "config/screen.h"
 #include "config/sky.h"
 #include "config/source.h"
@@ -28,11 +30,6 @@ struct UtcDateTime {
     double second = 0.0;
 
     friend bool operator==(const UtcDateTime&, const UtcDateTime&) = default;
-};
-
-struct Daemon {
-    /// Frames a second, 1..240.
-    double rate_hz = 60.0;
 };
 
 /// The world at start-up, and again each time the host puts the image generator into Standby.
@@ -167,6 +164,7 @@ struct Preview {
 
 struct Config {
     Daemon daemon;
+    Overload overload;
     Host host;
     /// At most kMaxSources.
     std::vector<Source> sources;
@@ -180,6 +178,8 @@ struct Config {
     Display display;
     Quality quality;
     Eye eye;
+    /// Of all channels that have none of their own.
+    Overlay overlay;
     Output output;
     /// At most kMaxWindows; with OutputKind::kWindow one at least.
     std::vector<Window> windows;
@@ -217,6 +217,9 @@ struct LoadResult {
 
 /// Everything at its default and one channel "centre", 1280x1024, 60 degrees wide.
 [[nodiscard]] Config default_config();
+
+/// All channels start with this one of kPatternNames; another name changes nothing.
+void show_pattern(Config& config, std::string_view pattern) noexcept;
 
 /// "site.toml:12:9: display.gamma: ..."
 [[nodiscard]] std::string to_text(const ConfigError& error);

@@ -43,6 +43,7 @@ std::string apply_preset(const std::string& preset, Config& config) {
     TableReader reader(errors, &root, {}, {});
     Config made = config;
     made.weather.layers.clear();
+    made.weather.areas.clear();
     made.weather.metar.clear();
     read_version(reader);
     read_air(reader.table("air"), made.air);

@@ -13,11 +13,6 @@ constexpr std::array<std::string_view, 3> kModelNames{"almanac", "erfa", "series
 constexpr std::array<std::string_view, 2> kSurfaceNames{"land", "sea"};
 constexpr std::array<std::string_view, 2> kOutputNames{"headless", "window"};
 
-void read_daemon(TableReader table, Daemon& daemon) {
-    table.number("rate_hz", daemon.rate_hz, {1.0, 240.0, "Hz"});
-    table.finish();
-}
-
 void read_utc(TableReader& table, std::optional<UtcDateTime>& utc) {
     const Value* value = table.any("utc");
     if (value == nullptr) return;
@@ -145,7 +140,9 @@ Config read_config(const Table& document, ErrorList& errors) {
     TableReader root(errors, &document, {}, {});
     read_version(root);
     read_preset(document, errors, config);
-    read_daemon(root.table("daemon"), config.daemon);
+    TableReader daemon = root.table("daemon");
+    read_daemon(daemon, config.daemon);
+    read_overload(root.table("overload"), config.overload);
     TableReader host = root.table("host");
     read_host(host, config.host);
     read_sources(root, errors, config.host, config.sources);
@@ -159,14 +156,18 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_display(root.table("display"), config.display);
     read_quality(root.table("quality"), config.quality);
     read_eye(root.table("eye"), config.eye);
+    TableReader overlay = root.table("overlay");
+    read_overlay(overlay, config.overlay);
+    overlay.finish();
     read_output(root.table("output"), config.output);
     read_record(root.table("record"), config.record);
     TableReader status = root.table("status");
     read_status(status, config.status);
     read_preview(root.table("preview"), config.preview);
     read_windows(root, errors, config.windows);
-    read_channels(root, errors, config.display, config.windows, config.channels);
+    read_channels(root, errors, config);
     place_channels(errors, config);
+    check_pacing(daemon, config);
     root.finish();
     return config;
 }

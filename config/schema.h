@@ -16,6 +16,12 @@ void read_sources(TableReader& root, ErrorList& errors, const Host& host, std::v
 /// Reads [status].
 void read_status(TableReader& table, Status& status);
 
+/// Reads [daemon], [overload].
+void read_daemon(TableReader& table, Daemon& daemon);
+void read_overload(TableReader table, Overload& overload);
+/// Checks [daemon] against what it paces by, all being read.
+void check_pacing(TableReader& daemon, const Config& config);
+
 /// Refuses a layout of another version.
 void read_version(TableReader& root);
 
@@ -42,6 +48,18 @@ void read_eye(TableReader table, Eye& eye);
 /// Reads the frustum of a [[channel]] and where it looks, its size and eye being read.
 void read_frustum(TableReader& table, Channel& channel);
 
+/// A path in the settings is meant from where they stand.
+[[nodiscard]] std::string beside(const std::string& settings_file, const std::string& path);
+
+/// The keys of a frustum exist, but nothing is read.
+void know_frustum(TableReader& table);
+/// Refuses what gives a frustum and where it looks, since `beside` does. \return whether there is nothing
+bool refuse_frustum(TableReader& table, std::string_view beside);
+
+/// Reads size and projection of a [[channel]], its eye being read: size and frustum, or [channel.mpcdi], and
+/// [channel.warp] and [channel.blend] with their files, whose paths are meant from where the settings stand.
+void read_projection(TableReader& table, const std::string& settings_file, Channel& channel);
+
 /// Reads the [[window]] tables, and where in one a [[channel]] is shown.
 void read_windows(TableReader& root, ErrorList& errors, std::vector<Window>& windows);
 void read_viewport(TableReader& table, ErrorList& errors, const std::vector<Window>& windows,
@@ -50,10 +68,12 @@ void read_viewport(TableReader& table, ErrorList& errors, const std::vector<Wind
 /// where they tell of some.
 void place_channels(ErrorList& errors, Config& config);
 
-/// Reads the [[channel]] tables and checks them against one another. \param usual  screen that theirs are
-/// variants of \param windows  that they may lie in
-void read_channels(TableReader& root, ErrorList& errors, const Screen& usual,
-                   const std::vector<Window>& windows, std::vector<Channel>& channels);
+/// Reads what [overlay] and [channel.overlay] hold; what is left out stays.
+void read_overlay(TableReader& table, Overlay& overlay);
+
+/// Reads the [[channel]] tables into `config`, whose [display], [overlay] and windows are read, and checks
+/// them against one another.
+void read_channels(TableReader& root, ErrorList& errors, Config& config);
 
 /// 1..32 of letters, digits, '-' and '_': fit for a part of a file's name.
 [[nodiscard]] bool is_short_name(std::string_view text) noexcept;

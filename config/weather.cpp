@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "config/schema.h"
 
 namespace skyig::config {
@@ -11,6 +14,7 @@ constexpr std::array<std::string_view, 4> kCloudModelNames{"auto", "layer", "imp
 constexpr std::array<std::string_view, 2> kDriverNames{"layers", "keyframes"};
 constexpr double kMetresPerFoot = 0.3048;
 constexpr double kMostHeight_m = 30'000.0;
+constexpr double kMostHalfSize_m = 1'000'000.0;
 
 /// A length that may be told in metres or in feet, but not in both. \return whether it is there
 bool read_length(TableReader& table, std::string_view metres, std::string_view feet, double least_m,
@@ -99,34 +103,81 @@ void read_layer(TableReader& table, WeatherLayer& layer) {
     const Value* from = table.number("wind_from_deg", layer.wind_from_deg, {-360.0, 360.0, "degrees"});
     if (from != nullptr && !table.has("wind_m_s"))
         table.error(*from, "wind_from_deg", "stands without wind_m_s; give both or none");
-    table.finish();
 }
 
-void read_layers(TableReader& weather, ErrorList& errors, std::vector<WeatherLayer>& layers) {
-    const Value* value = weather.any("layer");
+using ReadItem = std::function<void(TableReader& item)>;
+
+/// The tables of a list such as [[weather.layer]], each finished after `read`.
+/// \param list_path  "weather.layer", for errors
+/// \param there  how many of `most` the preset has taken
+void read_tables(TableReader& owner, ErrorList& errors, std::string_view key, std::string_view list_path,
+                 std::size_t there, std::size_t most, const ReadItem& read) {
+    const Value* value = owner.any(key);
     if (value == nullptr) return;
     const auto* list = std::get_if<Array>(&value->data);
     if (list == nullptr) {
-        weather.error(*value, "layer", "must be tables: write [[weather.layer]] in double brackets");
+        owner.error(*value, key, fmt::format("must be tables: write [[{}]] in double brackets", list_path));
         return;
     }
-    if (layers.size() + list->items.size() > kMaxWeatherLayers) {
-        weather.error(*value, "layer",
-                      fmt::format("makes {} with the preset's; at most {}",
-                                  layers.size() + list->items.size(), kMaxWeatherLayers));
+    if (const std::size_t count = there + list->items.size(); count > most) {
+        const std::string_view whose = there > 0 ? " with the preset's" : "";
+        owner.error(*value, key, fmt::format("makes {}{}; at most {}", count, whose, most));
         return;
     }
     int number = 0;
     for (const Value& item : list->items) {
         const auto* table = std::get_if<Table>(&item.data);
         if (table == nullptr) {
-            weather.error(item, "layer",
-                          fmt::format("holds {}; write [[weather.layer]] tables", type_name(item)));
+            owner.error(item, key, fmt::format("holds {}; write [[{}]] tables", type_name(item), list_path));
             continue;
         }
-        TableReader reader(errors, table, item.place, fmt::format("weather.layer[{}]", ++number));
-        read_layer(reader, layers.emplace_back());
+        TableReader reader(errors, table, item.place, fmt::format("{}[{}]", owner.key_path(key), ++number));
+        read(reader);
+        reader.finish();
     }
+}
+
+void read_layers(TableReader& owner, ErrorList& errors, std::string_view list_path,
+                 std::vector<WeatherLayer>& layers) {
+    read_tables(owner, errors, "layer", list_path, layers.size(), kMaxWeatherLayers,
+                [&layers](TableReader& item) { read_layer(item, layers.emplace_back()); });
+}
+
+void read_shape(TableReader& table, WeatherArea& area) {
+    table.require("half_length_m", "from its middle to its edge, along its rotation");
+    table.number("half_length_m", area.half_length_m, {0.0, kMostHalfSize_m, "m", true});
+    area.half_width_m = area.half_length_m;
+    table.number("half_width_m", area.half_width_m, {0.0, kMostHalfSize_m, "m", true});
+    const double most_m = std::min(area.half_length_m, area.half_width_m);
+    table.number("corner_radius_m", area.corner_radius_m, {0.0, most_m, "m"});
+    table.number("perimeter_m", area.perimeter_m, {0.0, kMostHalfSize_m, "m"});
+    table.number("rotation_deg", area.rotation_deg, {-360.0, 360.0, "degrees"});
+}
+
+void read_area(TableReader& table, ErrorList& errors, WeatherArea& area) {
+    int id = 0;
+    if (table.integer("id", id, 1, 65535) != nullptr) area.id = id;
+    table.require("latitude_deg", "where its middle is, -90..90");
+    table.number("latitude_deg", area.latitude_deg, {-90.0, 90.0, "degrees"});
+    table.require("longitude_deg", "where its middle is, -180..180");
+    table.number("longitude_deg", area.longitude_deg, {-180.0, 180.0, "degrees"});
+    read_shape(table, area);
+    table.boolean("merge", area.merge);
+    table.require("layer", "what weather it holds: [[weather.area.layer]] tables");
+    read_layers(table, errors, "weather.area.layer", area.layers);
+}
+
+void read_areas(TableReader& weather, ErrorList& errors, std::vector<WeatherArea>& areas) {
+    read_tables(
+        weather, errors, "area", "weather.area", areas.size(), kMaxWeatherAreas, [&](TableReader& item) {
+            WeatherArea area;
+            read_area(item, errors, area);
+            const bool taken = area.id && std::any_of(areas.begin(), areas.end(),
+                                                      [&](const auto& a) { return a.id == area.id; });
+            if (taken)
+                item.error(*item.any("id"), "id", fmt::format("is {}, that of another area", *area.id));
+            areas.push_back(std::move(area));
+        });
 }
 
 }  // namespace
@@ -148,7 +199,8 @@ void read_weather(TableReader table, ErrorList& errors, Weather& weather) {
     if (table.choice("driver", index, kDriverNames) != nullptr)
         weather.driver = static_cast<WeatherDriver>(index);
     read_keyframes(table.table("keyframes"), weather.keyframes);
-    read_layers(table, errors, weather.layers);
+    read_layers(table, errors, "weather.layer", weather.layers);
+    read_areas(table, errors, weather.areas);
     table.finish();
 }
 

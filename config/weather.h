@@ -81,6 +81,32 @@ struct WeatherLayer {
 
 inline constexpr std::size_t kMaxWeatherLayers = 32;
 
+/// One [[weather.area]]: weather inside a rounded rectangle on the ground, fading to nothing over a perimeter
+/// round it.
+struct WeatherArea {
+    /// By which a host may address it, 1..65535; not given: the next that is free.
+    std::optional<int> id;
+    double latitude_deg = 0.0;
+    /// -180..180
+    double longitude_deg = 0.0;
+    /// Of its length, clockwise from true north.
+    double rotation_deg = 0.0;
+    /// From the middle to the edge, > 0.
+    double half_length_m = 0.0;
+    double half_width_m = 0.0;
+    /// At most the lesser half size.
+    double corner_radius_m = 0.0;
+    double perimeter_m = 0.0;
+    /// Lets areas told before it be seen through its own layers.
+    bool merge = false;
+    /// Ids count inside the area.
+    std::vector<WeatherLayer> layers;
+
+    friend bool operator==(const WeatherArea&, const WeatherArea&) = default;
+};
+
+inline constexpr std::size_t kMaxWeatherAreas = 32;
+
 /// How clouds are drawn: "auto" leaves it to the plan.
 enum class CloudModel : std::uint8_t { kAuto, kLayer, kImpostor, kVolume };
 
@@ -101,6 +127,8 @@ struct Weather {
     Keyframes keyframes;
     /// At most kMaxWeatherLayers, those of the preset first.
     std::vector<WeatherLayer> layers;
+    /// At most kMaxWeatherAreas, those of the preset first.
+    std::vector<WeatherArea> areas;
 };
 
 }  // namespace skyig::config

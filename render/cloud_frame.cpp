@@ -10,39 +10,11 @@ namespace skyig::render {
 
 namespace {
 
-using cloud::kTile;
-using cloud::MapGeometry;
-
-// Where no cloud tells how far it is, the air is asked for this far.
-constexpr double kUsual_m = 10e3;
-
 cloud::ToneLaw law_of(const shaders64::ToneParameters& tone) noexcept {
     const auto f = [](double x) { return static_cast<float>(x); };
     return {f(tone.log2_gain), f(tone.exponent), f(tone.compression),
             f(tone.burn),      f(tone.photopic), f(tone.inv_display_max),
             f(tone.ambient),   f(tone.shoulder), f(tone.encode_power)};
-}
-
-// Whether some component of the light changes by more than an eighth from node to node.
-bool steep(const glm::vec3 (&light)[25]) noexcept {
-    constexpr float kStep = 0.125F;
-    const auto apart = [&](int i, int k) {
-        const glm::vec3 larger = glm::max(light[i], light[k]);
-        return glm::any(glm::greaterThan(glm::abs(light[i] - light[k]), kStep * larger));
-    };
-    for (int i = 0; i < 25; ++i) {
-        if ((i % 5 < 4 && apart(i, i + 1)) || (i < 20 && apart(i, i + 5))) return true;
-    }
-    return false;
-}
-
-// Cloud hardly absorbs: what weakens a flash on its way through is what escapes to all sides, as if some of
-// the depth of a cumulonimbus, 0.03 per metre, were left out.
-glm::vec3 flash_inside_cd_m2(const cloud::Flash& flash, const glm::dvec3& place_m) noexcept {
-    constexpr double kForward = 0.85;
-    constexpr double kEscape_per_m = 1.0 / 1500.0;
-    const double depth = glm::distance(flash.place_m, place_m) * kEscape_per_m / (1.0 - kForward);
-    return cloud::flash_on_cloud_cd_m2(flash, place_m, depth, kForward);
 }
 
 glm::dvec3 body_direction(const SkyLight& light, const glm::dvec3& airless_enu) {
@@ -52,20 +24,6 @@ glm::dvec3 body_direction(const SkyLight& light, const glm::dvec3& airless_enu) 
 
 }  // namespace
 
-// At a tile's nodes, for this frame.
-struct CloudFrame::Nodes {
-    std::array<std::array<float, kNodeCount>, 2> inverse_m{};  // of each part
-    std::array<cloud::LightAndPassed, kNodeCount> near{};
-};
-
-// Codes of what stands behind a tile, at its nodes.
-struct CloudFrame::Behind {
-    static constexpr std::size_t kPadded = cloud::kToneRow;
-    /// Of each component.
-    float sky[3][kPadded];
-    float ground[3][kPadded];
-};
-
 CloudFrame::CloudFrame(std::size_t screens) : laws_(screens), texels_(screens) {
     probes_.resize(eye::kProbeCount + 2);
 }
@@ -73,6 +31,7 @@ CloudFrame::CloudFrame(std::size_t screens) : laws_(screens), texels_(screens) {
 void CloudFrame::stop() noexcept {
     if (!shown_) return;
     map_.stop();
+    shadow_ = nullptr;
     shown_ = false;
     toned_.clear();
     clouded_.clear();
@@ -88,6 +47,10 @@ void CloudFrame::resize() {
     toned_.reserve(tiles);
     clouded_.reserve(tiles);
     clouded_tiles_.reserve(tiles);
+    near_made_.resize(tiles);
+    // Room for all, of which views see some; what is not used is never touched.
+    for (auto& texels : texels_)
+        texels.reserve(tiles * kTileFloats);
     ++size_revision_;
 }
 
@@ -117,16 +80,16 @@ void CloudFrame::follow(cloud::CloudMaker& maker, const Scene& scene, const clou
 glm::dvec3 CloudFrame::composed(const cloud::CloudMap::Sight& sight, const DeferredAir& air,
                                 const glm::dvec3& behind_cd_m2,
                                 const glm::dvec3& direction_enu) const noexcept {
-    glm::dvec3 sum = sight.near_light_cd_m2 + sight.transmittance * behind_cd_m2;
-    if (sight.far_opacity > 0.0) {
-        const auto between = air.between(direction_enu, sight.distance_m);
-        glm::dvec3 light_cd_m2 = sight.far_light_cd_m2;
-        for (const cloud::Flash& flash : flashes_.all()) {
-            light_cd_m2 +=
-                sight.far_opacity * glm::dvec3{flash_inside_cd_m2(flash, direction_enu * sight.distance_m)};
-        }
-        sum += between.passed_rgb * light_cd_m2 + sight.far_opacity * between.added_rgb;
-    }
+    glm::dvec3 sum = sight.transmittance * behind_cd_m2;
+    const auto add = [&](glm::dvec3 light_cd_m2, double opacity, double distance_m) {
+        if (!(opacity > 0.0)) return;
+        const auto between = air.between(direction_enu, distance_m);
+        for (const cloud::Flash& flash : flashes_.all())
+            light_cd_m2 += opacity * glm::dvec3{flash_inside_cd_m2(flash, direction_enu * distance_m)};
+        sum += between.passed_rgb * light_cd_m2 + opacity * between.added_rgb;
+    };
+    add(sight.near_light_cd_m2, sight.near_opacity, sight.near_distance_m);
+    add(sight.far_light_cd_m2, sight.far_opacity, sight.distance_m);
     return sum;
 }
 
@@ -142,7 +105,29 @@ double CloudFrame::transmittance(Body body) const noexcept {
 
 glm::dvec3 CloudFrame::seen_through(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
                                     const glm::dvec3& direction_enu) const noexcept {
-    return shown_ ? composed(map_.sight(direction_enu), air, behind_cd_m2, direction_enu) : behind_cd_m2;
+    if (!shown_) return behind_cd_m2;
+    const glm::dvec3 shade_cd_m2 =
+        shadow_ != nullptr ? shadow_->change_cd_m2(air, direction_enu, map_.geometry().worst_texel_rad())
+                           : glm::dvec3{0.0};
+    return composed(map_.sight(direction_enu), air, behind_cd_m2 + shade_cd_m2, direction_enu);
+}
+
+glm::dvec3 CloudFrame::before_thing(const DeferredAir& air, const glm::dvec3& thing_cd_m2,
+                                    const glm::dvec3& direction_enu, double distance_m) const noexcept {
+    if (!shown_) return thing_cd_m2;
+    const cloud::CloudMap::Sight sight = map_.sight(direction_enu);
+    const double inverse_per_m = sight.distance_m > 0.0 ? 1.0 / sight.distance_m : 0.0;
+    const double before = shaders64::passed_before(sight.transmittance, 1.0 - sight.near_opacity, distance_m,
+                                                   cloud::kNearRange_m, inverse_per_m);
+    const glm::dvec3 all_cd_m2 = composed(sight, air, glm::dvec3{0.0}, direction_enu);
+    return before * thing_cd_m2 + shaders64::light_before(sight.transmittance, before) * all_cd_m2;
+}
+
+void CloudFrame::serve_things() noexcept {
+    if (serves_things_) return;
+    serves_things_ = true;
+    for (Made& made : made_)
+        made.map = 0;
 }
 
 glm::dvec3 CloudFrame::probed(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
@@ -151,45 +136,12 @@ glm::dvec3 CloudFrame::probed(const DeferredAir& air, const glm::dvec3& behind_c
     return composed(map_.probe(probe), air, behind_cd_m2, glm::dvec3{probes_[probe]});
 }
 
-void CloudFrame::look_up(int tile, const SkyLight& light, const DeferredAir& air) noexcept {
-    Backdrop& backdrop = backdrops_[static_cast<std::size_t>(tile)];
-    const MapGeometry::Texel corner = map_.geometry().corner(tile);
-    const cloud::Snapshot& latest = *map_.parts().back().snapshot;
-    const cloud::Cone& cone = map_.cone(tile);
-    const double reach_rad = std::atan2(cone.sine, cone.cosine);
-    const double middle_rad = horizontal_of(cone.axis).elevation_rad - light.horizon_elevation_rad;
-    for (int i = 0; i < kNodes * kNodes; ++i) {
-        const auto node = static_cast<std::size_t>(i);
-        const int column = corner.column + i % kNodes * cloud::Snapshot::kNodeStep;
-        const int row = corner.row + i / kNodes * cloud::Snapshot::kNodeStep;
-        const glm::dvec3 direction{map_.geometry().direction(column, row, corner.lower)};
-        const double length = glm::length(direction);
-        const Horizontal at = horizontal_of(direction);
-        const auto rgb = [&](Side side) {
-            return light.smooth_rgb_cd_m2(at.elevation_rad, at.azimuth_rad, side);
-        };
-        if (middle_rad + reach_rad > 0.0) backdrop.sky[i] = rgb(Side::kSky);
-        if (middle_rad - reach_rad < 0.0) backdrop.ground[i] = rgb(Side::kGround);
-        if (middle_rad + reach_rad <= 0.0) backdrop.sky[i] = backdrop.ground[i];
-        const auto inverse_m = static_cast<double>(latest.inverse_distance(
-            column / cloud::Snapshot::kNodeStep, row / cloud::Snapshot::kNodeStep, corner.lower));
-        const double distance_m = inverse_m > 0.0 ? length / inverse_m : kUsual_m;
-        const auto between = air.between(direction / length, distance_m);
-        const glm::dvec3 kept = glm::max(glm::dvec3{1.0} - between.passed_rgb, glm::dvec3{1e-6});
-        backdrop.extinction[node] =
-            glm::vec3{-glm::log(glm::max(between.passed_rgb, glm::dvec3{1e-12})) / distance_m};
-        backdrop.convergence[node] = glm::vec3{between.added_rgb / kept};
-    }
-    backdrop.horizon = std::abs(middle_rad) < reach_rad;
-    backdrop.steep = steep(backdrop.sky) || (backdrop.horizon && steep(backdrop.ground));
-}
-
 void CloudFrame::refresh_backdrops(const SkyLight& light, const DeferredAir& air, std::uint64_t revision) {
     // All that have none; of the others some, in turn.
     for (const int tile : clouded_tiles_) {
         Made& made = made_[static_cast<std::size_t>(tile)];
         if (made.light != 0 && !jumped_) continue;
-        look_up(tile, light, air);
+        look_up(backdrops_[static_cast<std::size_t>(tile)], map_, tile, light, air, shadow_);
         made.light = revision;
         made.map = 0;
     }
@@ -199,225 +151,33 @@ void CloudFrame::refresh_backdrops(const SkyLight& light, const DeferredAir& air
         const int tile = clouded_tiles_[next_backdrop_++ % count];
         Made& made = made_[static_cast<std::size_t>(tile)];
         if (made.light == revision) continue;
-        look_up(tile, light, air);
+        look_up(backdrops_[static_cast<std::size_t>(tile)], map_, tile, light, air, shadow_);
         made.light = revision;
         made.map = 0;
         ++refreshed;
     }
 }
 
-void CloudFrame::fill_nodes(int tile, Nodes& nodes) const noexcept {
-    const MapGeometry::Texel corner = map_.geometry().corner(tile);
-    const auto parts = map_.parts();
-    for (int i = 0; i < kNodes * kNodes; ++i) {
-        const auto node = static_cast<std::size_t>(i);
-        const int column = corner.column + i % kNodes * cloud::Snapshot::kNodeStep;
-        const int row = corner.row + i / kNodes * cloud::Snapshot::kNodeStep;
-        for (std::size_t part = 0; part < parts.size(); ++part) {
-            nodes.inverse_m[part][node] = parts[part].snapshot->inverse_distance(
-                column / cloud::Snapshot::kNodeStep, row / cloud::Snapshot::kNodeStep, corner.lower);
-        }
-        if (map_.near_map() == nullptr) {
-            nodes.near[node].v = cloud::LightAndPassed::Lanes{0.0F, 0.0F, 0.0F, 1.0F};
-            continue;
-        }
-        nodes.near[node].v = map_.near_map()->seen(map_.geometry().direction(column, row, corner.lower));
-    }
-}
-
-namespace {
-
-// Where the octahedron folds: along a diagonal of its square, which tiles on it have as theirs.
-enum class Fold { kNone, kFalling, kRising };
-
-Fold fold_of(const MapGeometry::Texel& corner, int size) noexcept {
-    if (corner.column == corner.row) return Fold::kFalling;
-    return corner.column + corner.row == size - kTile ? Fold::kRising : Fold::kNone;
-}
-
-// One row of texels from nodes, kNodeStep texels apart: linear both ways, but over two triangles in cells
-// that the fold goes through.
-template <class At>
-void spread(Fold fold, int row, At at, float* out) noexcept {
-    constexpr int kStep = cloud::Snapshot::kNodeStep;
-    constexpr float kShare = 1.0F / kStep;
-    const int high = row / kStep;
-    const float down = static_cast<float>(row % kStep) * kShare;
-    for (int cell = 0; cell < kTile / kStep; ++cell) {
-        const auto node = static_cast<std::size_t>(high * 5 + cell);
-        const float a = at(node), b = at(node + 1), c = at(node + 5), d = at(node + 6);
-        const bool falling = fold == Fold::kFalling && cell == high;
-        const bool rising = fold == Fold::kRising && cell + high == kTile / kStep - 1;
-        float* texels = out + cell * kStep;
-        if (!falling && !rising) {
-            const float from = a + down * (c - a);
-            const float step = (b + down * (d - b) - from) * kShare;
-            for (int i = 0; i < kStep; ++i)
-                texels[i] = from + step * static_cast<float>(i);
-            continue;
-        }
-        for (int i = 0; i < kStep; ++i) {
-            const float right = static_cast<float>(i) * kShare;
-            if (falling)
-                texels[i] = right > down ? a + right * (b - a) + down * (d - b)
-                                         : a + down * (c - a) + right * (d - c);
-            else
-                texels[i] = right + down < 1.0F ? a + right * (b - a) + down * (c - a)
-                                                : d + (1.0F - right) * (c - d) + (1.0F - down) * (b - d);
-        }
-    }
-}
-
-}  // namespace
-
-void CloudFrame::gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRow& out) const noexcept {
-    const MapGeometry& geometry = map_.geometry();
-    const MapGeometry::Texel corner = geometry.corner(tile);
-    const auto parts = map_.parts();
-    const Fold fold = fold_of(corner, geometry.size());
-    float near_passed[kTile];
-    spread(
-        fold, row, [&](std::size_t i) { return nodes.near[i].v[3]; }, near_passed);
-    float near_share = 0.0F;
-    float inverse_m[2][kTile];
-    for (std::size_t part = 0; part < parts.size(); ++part) {
-        spread(
-            fold, row, [&](std::size_t i) { return nodes.inverse_m[part][i]; }, inverse_m[part]);
-        near_share += parts[part].beyond_near ? parts[part].weight : 0.0F;
-    }
-    for (int c = 0; c < 3; ++c) {
-        spread(
-            fold, row, [&](std::size_t i) { return near_share * nodes.near[i].v[c]; },
-            out.smooth[cloud::kNearLight + c]);
-    }
-    const float scale = 2.0F / static_cast<float>(geometry.size() - 1);
-    const float y = static_cast<float>(corner.row + row) * scale - 1.0F;
-    for (int i = 0; i < kTile; ++i) {
-        const float x = static_cast<float>(corner.column + i) * scale - 1.0F;
-        glm::vec3 direction = shaders32::cloud_map_direction({x, y});
-        if (corner.lower) direction.z = -direction.z;
-        cloud::LightAndPassed::Lanes sum{};
-        float opacity = 0.0F;
-        float reach_m = 0.0F;
-        for (std::size_t k = 0; k < parts.size(); ++k) {
-            const auto& part = parts[k];
-            const cloud::Snapshot::Seen seen = part.snapshot->seen(direction, inverse_m[k][i], part.offset_m);
-            const float factor = part.beyond_near ? part.weight * near_passed[i] : part.weight;
-            sum += seen.light * factor;
-            opacity += factor * (1.0F - seen.light[3]);
-            reach_m += factor * seen.reach_m;
-        }
-        for (int c = 0; c < 3; ++c)
-            out.light[c][i] = sum[c];
-        out.passed[i] = sum[3];
-        out.opacity[i] = opacity;
-        out.reach_m[i] = reach_m;
-    }
-}
-
-// What may light the clouds of a tile: it lies near by one of the places where they are.
-void CloudFrame::find_flashes(int tile) noexcept {
-    on_tile_.count = 0;
-    if (flashes_.count == 0) return;
-    const cloud::Cone& cone = map_.cone(tile);
-    for (const cloud::Flash& flash : flashes_.all()) {
-        // As seen from the eye, a tile's clouds lie within its cone.
-        const double away_m = glm::length(flash.place_m);
-        const double along_m = glm::dot(flash.place_m, cone.axis);
-        const double aside_m = std::sqrt(std::max(away_m * away_m - along_m * along_m, 0.0));
-        const double outside_m =
-            along_m > 0.0 ? aside_m * cone.cosine - along_m * cone.sine : away_m - cloud::kFlashReach_m;
-        if (outside_m < cloud::kFlashReach_m) on_tile_.flashes[on_tile_.count++] = flash;
-    }
-}
-
-void CloudFrame::add_flashes(int tile, int row, cloud::ToneRow& out) const noexcept {
-    const MapGeometry& geometry = map_.geometry();
-    const MapGeometry::Texel corner = geometry.corner(tile);
-    for (int i = 0; i < kTile; ++i) {
-        if (!(out.opacity[i] > 1e-3F)) continue;
-        const glm::dvec3 direction =
-            glm::normalize(glm::dvec3{geometry.direction(corner.column + i, corner.row + row, corner.lower)});
-        const glm::dvec3 place_m = direction * static_cast<double>(out.reach_m[i] / out.opacity[i]);
-        for (const cloud::Flash& flash : on_tile_.all()) {
-            const glm::vec3 added = out.opacity[i] * flash_inside_cd_m2(flash, place_m);
-            for (int c = 0; c < 3; ++c)
-                out.light[c][i] += added[c];
-        }
-    }
-}
-
-void CloudFrame::show_behind(const Backdrop& backdrop, Behind& behind) const noexcept {
-    const auto show = [&](const glm::vec3(&light)[kNodeCount], float(&codes)[3][Behind::kPadded]) {
-        for (std::size_t i = 0; i < Behind::kPadded; ++i) {
-            const glm::vec3& rgb = light[std::min(i, kNodeCount - 1)];
-            for (int c = 0; c < 3; ++c)
-                codes[c][i] = rgb[c];
-        }
-        cloud::tone_kernel().show(laws_.front(), codes[0], codes[1], codes[2]);
-    };
-    show(backdrop.sky, behind.sky);
-    if (backdrop.horizon) show(backdrop.ground, behind.ground);
-}
-
-// One screen's rig has the codes behind at the nodes; where they bend, and for several screens, they are
-// worked out.
-void CloudFrame::tone_tile(int tile, const SkyLight& light, std::size_t first) noexcept {
-    const Backdrop& backdrop = backdrops_[static_cast<std::size_t>(tile)];
-    Nodes nodes;
-    fill_nodes(tile, nodes);
-    const MapGeometry& geometry = map_.geometry();
-    const MapGeometry::Texel corner = geometry.corner(tile);
-    const Fold fold = fold_of(corner, geometry.size());
-    const bool by_nodes = laws_.size() == 1 && !backdrop.steep;
-    Behind behind;
-    if (by_nodes) show_behind(backdrop, behind);
-    const double horizon_sine = std::sin(light.horizon_elevation_rad);
-    cloud::ToneRow row;
-    float codes[3][kTile];
-    for (int y = 0; y < kTile; ++y) {
-        gather_row(tile, y, nodes, row);
-        if (on_tile_.count > 0) add_flashes(tile, y, row);
-        const auto lay = [&](const auto& at, float* out) { spread(fold, y, at, out); };
-        for (int c = 0; c < 3; ++c) {
-            lay([&](std::size_t i) { return backdrop.sky[i][c]; }, row.smooth[cloud::kBehind + c]);
-            lay([&](std::size_t i) { return backdrop.extinction[i][c]; }, row.smooth[cloud::kExtinction + c]);
-            lay([&](std::size_t i) { return backdrop.convergence[i][c]; },
-                row.smooth[cloud::kConvergence + c]);
-            if (by_nodes) lay([&](std::size_t i) { return behind.sky[c][i]; }, codes[c]);
-            if (!backdrop.horizon) continue;
-            // The ground shows below the horizon.
-            float ground[kTile];
-            float ground_codes[kTile];
-            lay([&](std::size_t i) { return backdrop.ground[i][c]; }, ground);
-            if (by_nodes) lay([&](std::size_t i) { return behind.ground[c][i]; }, ground_codes);
-            for (int i = 0; i < kTile; ++i) {
-                const glm::dvec3 direction{
-                    geometry.direction(corner.column + i, corner.row + y, corner.lower)};
-                if (direction.z > horizon_sine * glm::length(direction)) continue;
-                row.smooth[cloud::kBehind + c][i] = ground[i];
-                if (by_nodes) codes[c][i] = ground_codes[i];
-            }
-        }
-        for (std::size_t screen = 0; screen < laws_.size(); ++screen) {
-            cloud::tone_kernel().tone(laws_[screen], row, by_nodes ? codes[0] : nullptr,
-                                      &texels_[screen][first + static_cast<std::size_t>(y * kTile * 4)]);
-        }
-    }
-}
-
 // Whether a tile of the texture still shows what it should: nothing has changed but the eye's place, and that
-// by less than a quarter of a fine pixel.
+// by what moves no code by half a step. The bound is too wide by three: it takes the tile's largest step, its
+// nearest cloud, and texels as narrow as they are anywhere.
 bool CloudFrame::serves(int tile, std::uint64_t tone_revision) const noexcept {
     const Made& made = made_[static_cast<std::size_t>(tile)];
-    if (!made.clouded || made.tone != tone_revision || made.map != map_.revision()) return false;
-    constexpr float kStep_rad = 2.2e-4F;
+    if (!made.clouded || made.tone != tone_revision || made.map == 0) return false;
+    const double shaded_m = shaded_from_m(tile);
+    if (shaded_m > 0.0 ? !shadow_->serves(made.shadow, shaded_m, tile) : made.shadow.shaded) return false;
+    if (!map_.may_show(tile)) return !made.with_clouds;
+    if (made.map != map_.revision() || !still_serves(near_made_[static_cast<std::size_t>(tile)], near_))
+        return false;
+    constexpr float kStep = 3.0F * 0.5F / 255.0F;
+    // Texels are 1.41 / size wide where they are narrowest; a way aslant goes over rows and columns.
+    const float steps_a_rad = made.step * static_cast<float>(map_.geometry().size());
     const glm::vec3 axis{map_.cone(tile).axis};
     const auto parts = map_.parts();
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const glm::vec3 moved_m = parts[k].offset_m - made.offsets_m[k];
         const float aside_m = glm::length(glm::cross(axis, moved_m));
-        if (aside_m * parts[k].snapshot->nearest_inverse(tile) > kStep_rad) return false;
+        if (aside_m * parts[k].snapshot->nearest_inverse(tile) * steps_a_rad > steps_ * kStep) return false;
     }
     return true;
 }
@@ -427,6 +187,7 @@ void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
                       std::uint64_t tone_revision, const cloud::Flashes& flashes) {
     flashes_ = flashes;
     toned_.clear();
+    toned_count_ = 0;
     clouded_.clear();
     clouded_tiles_.clear();
     if (!shown_) return;
@@ -434,7 +195,7 @@ void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
         laws_[screen] = law_of(tones[screen]);
     for (const int tile : map_.seen_tiles()) {
         Made& made = made_[static_cast<std::size_t>(tile)];
-        if (map_.may_show(tile)) {
+        if (map_.may_show(tile) || shaded_from_m(tile) > 0.0) {
             clouded_tiles_.push_back(tile);
             clouded_.push_back(map_.cone(tile));
         } else if (made.clouded) {
@@ -444,27 +205,42 @@ void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
         }
     }
     refresh_backdrops(light, air, light_revision + 1);
-    // With room for a turn of the rig.
     const std::size_t most = map_.seen_tiles().size() * kTileFloats;
     for (auto& texels : texels_) {
-        if (texels.size() < most) texels.resize(most + most / 2);
+        if (texels.size() < most) texels.resize(most);
     }
-    std::size_t first = 0;
-    for (const int tile : clouded_tiles_) {
-        Made& made = made_[static_cast<std::size_t>(tile)];
-        find_flashes(tile);
-        const bool flashed = on_tile_.count > 0;
-        if (!flashed && !made.flashed && serves(tile, tone_revision)) continue;
-        made.flashed = flashed;
-        tone_tile(tile, light, first);
-        toned_.push_back({tile, first});
-        first += kTileFloats;
-        made.clouded = true;
-        made.map = map_.revision();
-        made.tone = tone_revision;
-        for (std::size_t k = 0; k < map_.parts().size(); ++k)
-            made.offsets_m[k] = map_.parts()[k].offset_m;
-    }
+    const std::size_t of_things = serves_things_ ? map_.seen_tiles().size() * CloudTile::kThingFloats : 0;
+    if (things_.size() < of_things) things_.resize(of_things);
+    for (const int tile : clouded_tiles_)
+        refresh_tile(tile, light, tone_revision);
+}
+
+void CloudFrame::refresh_tile(int tile, const SkyLight& light, std::uint64_t tone_revision) noexcept {
+    const auto index = static_cast<std::size_t>(tile);
+    Made& made = made_[index];
+    look_up(near_, map_, tile);
+    const cloud::Flashes flashes = flashes_on(map_.cone(tile), flashes_);
+    const bool flashed = flashes.count > 0;
+    if (!flashed && !made.flashed && serves(tile, tone_revision)) return;
+    const std::size_t count = toned_count_++;
+    const std::size_t first = count * kTileFloats;
+    const bool shaded = shaded_from_m(tile) > 0.0;
+    tile_.take(map_, tile, backdrops_[index], near_, light, flashes);
+    if (shaded) tile_.shade(*shadow_, backdrops_[index]);
+    const std::span<float> things =
+        serves_things_ ? std::span{things_}.subspan(count * CloudTile::kThingFloats, CloudTile::kThingFloats)
+                       : std::span<float>{};
+    made.step = tile_.tone(laws_, texels_, first, things);
+    toned_.push_back({tile, first});
+    made.flashed = flashed;
+    made.clouded = true;
+    made.with_clouds = map_.may_show(tile);
+    made.shadow = shaded ? shadow_->now() : GroundShadow::Made{};
+    made.map = map_.revision();
+    made.tone = tone_revision;
+    for (std::size_t k = 0; k < map_.parts().size(); ++k)
+        made.offsets_m[k] = map_.parts()[k].offset_m;
+    near_made_[index] = near_;
 }
 
 }  // namespace skyig::render

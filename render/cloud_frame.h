@@ -12,6 +12,7 @@
 #include "render/cloud/cloud_map.h"
 #include "render/cloud/lightning.h"
 #include "render/cloud/tile_tone.h"
+#include "render/cloud_tile.h"
 #include "render/deferred.h"
 #include "render/eye/adaptation.h"
 #include "render/shaders/shared.h"
@@ -41,6 +42,13 @@ class CloudFrame {
     /// The frame's clouds in linear light; from then on seen_through() and its like may be asked.
     void follow(cloud::CloudMaker& maker, const Scene& scene, const cloud::CloudLight& on_clouds,
                 const SkyLight& light, bool jumped, int size, int tiles_a_frame);
+    /// Shadows of this frame's clouds, null for none; it must live until the next call.
+    void shade_ground(const GroundShadow* shadow) noexcept { shadow_ = shadow; }
+    /// From now on things stand among the clouds: tones all again.
+    void serve_things() noexcept;
+    /// By how many steps at once what is toned follows the eye, at least 1: a step moves no code by more than
+    /// half of one.
+    void step_by(float steps) noexcept { steps_ = steps; }
     /// Tones what has changed. \param tones  one for each screen \param light_revision  rises when the light
     /// has changed by what may show \param tone_revision  likewise \param flashes  that light the clouds
     void tone(const SkyLight& light, const DeferredAir& air, std::span<const shaders64::ToneParameters> tones,
@@ -51,6 +59,11 @@ class CloudFrame {
     /// The same for all screens.
     [[nodiscard]] std::span<const TonedTile> toned() const noexcept { return toned_; }
     [[nodiscard]] std::span<const float> texels(std::size_t screen) const noexcept { return texels_[screen]; }
+    /// CloudTile::kThingFloats of a toned tile that shows clouds, once serve_things() was called.
+    [[nodiscard]] std::span<const float> things(const TonedTile& toned) const noexcept {
+        return std::span{things_}.subspan(toned.first / kTileFloats * CloudTile::kThingFloats,
+                                          CloudTile::kThingFloats);
+    }
     /// Rises when the map has got another size: all of it is clear until told otherwise.
     [[nodiscard]] std::uint64_t size_revision() const noexcept { return size_revision_; }
     /// Cones of the tiles that show clouds to a view.
@@ -64,24 +77,15 @@ class CloudFrame {
     /// What is seen of light behind all clouds and air, with the clouds' own. \param direction_enu  in a view
     [[nodiscard]] glm::dvec3 seen_through(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
                                           const glm::dvec3& direction_enu) const noexcept;
+    /// What is seen of a thing in air, and of the clouds before it. \param thing_cd_m2  with the air before
+    /// it
+    [[nodiscard]] glm::dvec3 before_thing(const DeferredAir& air, const glm::dvec3& thing_cd_m2,
+                                          const glm::dvec3& direction_enu, double distance_m) const noexcept;
     /// The same in the direction of one of eye::probe_directions().
     [[nodiscard]] glm::dvec3 probed(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
                                     std::size_t probe) const noexcept;
 
   private:
-    static constexpr int kNodes = 5;  // on a tile's side, its neighbours' first with them
-    static constexpr std::size_t kNodeCount = std::size_t{kNodes} * kNodes;
-    /// What stands behind a tile and between, at its nodes.
-    struct Backdrop {
-        glm::vec3 sky[kNodeCount];
-        glm::vec3 ground[kNodeCount];
-        glm::vec3 extinction[kNodeCount];
-        glm::vec3 convergence[kNodeCount];
-        /// Both stand behind it.
-        bool horizon = false;
-        /// Light changes so much between nodes that its codes do not go straight.
-        bool steep = false;
-    };
     /// What a tile of the texture was made from.
     struct Made {
         std::uint64_t light = 0;  // 0: no backdrop
@@ -89,38 +93,44 @@ class CloudFrame {
         std::uint64_t tone = 0;
         bool clouded = false;
         bool flashed = false;
+        float step = 0.0F;                     // CloudTile::tone()
         std::array<glm::vec3, 2> offsets_m{};  // of the map's parts
+        bool with_clouds = false;
+        GroundShadow::Made shadow;
     };
     void resize();
     [[nodiscard]] glm::dvec3 composed(const cloud::CloudMap::Sight& sight, const DeferredAir& air,
                                       const glm::dvec3& behind_cd_m2,
                                       const glm::dvec3& direction_enu) const noexcept;
     void refresh_backdrops(const SkyLight& light, const DeferredAir& air, std::uint64_t revision);
-    void look_up(int tile, const SkyLight& light, const DeferredAir& air) noexcept;
-    void tone_tile(int tile, const SkyLight& light, std::size_t first) noexcept;
-    struct Nodes;
-    void fill_nodes(int tile, Nodes& nodes) const noexcept;
-    void gather_row(int tile, int row, const Nodes& nodes, cloud::ToneRow& out) const noexcept;
-    struct Behind;
-    void show_behind(const Backdrop& backdrop, Behind& behind) const noexcept;
-    void find_flashes(int tile) noexcept;
-    void add_flashes(int tile, int row, cloud::ToneRow& out) const noexcept;
+    void refresh_tile(int tile, const SkyLight& light, std::uint64_t tone_revision) noexcept;
     [[nodiscard]] bool serves(int tile, std::uint64_t tone_revision) const noexcept;
 
+    [[nodiscard]] double shaded_from_m(int tile) const noexcept {
+        return shadow_ != nullptr ? shadow_->nearest_m(map_.cone(tile)) : 0.0;
+    }
+
     cloud::CloudMap map_;
+    const GroundShadow* shadow_ = nullptr;
+    bool serves_things_ = false;
+    std::vector<float> things_;
     bool shown_ = false;
     bool jumped_ = false;
     std::vector<glm::vec3> probes_;
-    std::vector<Backdrop> backdrops_;  // of each tile
+    std::vector<CloudBackdrop> backdrops_;  // of each tile
     std::vector<Made> made_;
+    std::vector<NearNodes> near_made_;  // likewise
+    NearNodes near_;                    // of the tile in hand
+    CloudTile tile_;
     std::vector<cloud::ToneLaw> laws_;
     cloud::Flashes flashes_;
-    cloud::Flashes on_tile_;  // of those, what lights the tile in hand
     std::vector<TonedTile> toned_;
+    std::size_t toned_count_ = 0;  // of those, what has texels
     std::vector<std::vector<float>> texels_;
     std::vector<cloud::Cone> clouded_;
     std::vector<int> clouded_tiles_;
     std::size_t next_backdrop_ = 0;
+    float steps_ = 1.0F;
     std::uint64_t size_revision_ = 0;
 };
 

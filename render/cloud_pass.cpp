@@ -31,8 +31,8 @@ Octant octant_of(int index, const glm::dmat4& enu_from_mesh) noexcept {
     return octant;
 }
 
-CloudPass::CloudPass(std::size_t screens)
-    : program_("cloud/dome.vert", "cloud/dome.frag"),
+CloudPass::CloudPass(std::size_t screens, gl::Placement placement)
+    : program_("cloud/dome.vert", "cloud/dome.frag", placement),
       clip_(program_.uniform("u_clip_from_mesh")),
       enu_(program_.uniform("u_enu_from_mesh")),
       share_(program_.uniform("u_share")),
@@ -40,7 +40,7 @@ CloudPass::CloudPass(std::size_t screens)
       dither_(program_.uniform("u_dither_codes")),
       place_(program_.uniform("u_cloud_place")),
       octant_(program_.uniform("u_octant")),
-      over_("sky/dome.vert", "cloud/over.frag"),
+      over_("sky/dome.vert", "cloud/over.frag", placement),
       over_fetch_(over_),
       over_clip_(over_.uniform("u_clip_from_mesh")),
       over_enu_(over_.uniform("u_enu_from_mesh")),

@@ -37,7 +37,7 @@ inline constexpr int kOctants = 8;
 class CloudPass {
   public:
     /// \throws std::runtime_error when the program cannot be made
-    explicit CloudPass(std::size_t screens);
+    CloudPass(std::size_t screens, gl::Placement placement);
 
     /// Takes over the tiles that have changed. Textures are made with the first clouds.
     void prepare(const CloudFrame& clouds, bool dither);

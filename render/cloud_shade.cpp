@@ -5,6 +5,7 @@
 
 #include "render/cloud/field/shapes.h"
 #include "render/cloud/slab_light.h"
+#include "render/weather_area.h"
 
 namespace skyig::render {
 
@@ -12,16 +13,7 @@ namespace {
 
 // Of a layer that the eye may be outside of, at the eye: 1 inside its area, 0 beyond the perimeter.
 double part_here(const CloudLayer& cloud) noexcept {
-    if (!cloud.area) return 1.0;
-    const WeatherArea& area = *cloud.area;
-    const double sine = std::sin(area.axis_rad);
-    const double cosine = std::cos(area.axis_rad);
-    const glm::dvec2 along{std::abs(area.centre_m.x * sine + area.centre_m.y * cosine),
-                           std::abs(area.centre_m.x * cosine - area.centre_m.y * sine)};
-    const glm::dvec2 outside = glm::max(along - area.half_size_m, 0.0);
-    const double beyond_m = glm::length(outside) - area.corner_radius_m;
-    if (beyond_m <= 0.0) return 1.0;
-    return area.perimeter_m > 0.0 ? 1.0 - std::min(beyond_m / area.perimeter_m, 1.0) : 0.0;
+    return cloud.area ? area_weight(*cloud.area, glm::dvec2{0.0}) : 1.0;
 }
 
 // A layer with gaps is not as deep in the mean as in its middle.

@@ -149,10 +149,9 @@ fog::Veil::Both DeferredAir::veil_along(const glm::dvec3& ray_enu, double distan
 glm::dvec3 DeferredAir::veil_in_air(const shaders64::VeilSum& sum, const glm::dvec3& ray_enu,
                                     const glm::dvec3& endless_cd_m2,
                                     const glm::dvec3& behind_cd_m2) const noexcept {
-    const double veil_m = shaders64::veil_distance_m(sum);
-    const double rise_m = shaders64::veil_rise_m(veil_m, {ray_enu.z, veil_->eye_radius_m()});
-    return shaders64::veil_in_air(sum, shaders64::veil_air_passes(rise_m, veil_m, front_air_), endless_cd_m2,
-                                  behind_cd_m2);
+    const glm::dvec3 passes =
+        shaders64::veil_air_passes_before(sum, {ray_enu.z, veil_->eye_radius_m()}, front_air_);
+    return shaders64::veil_in_air(sum, passes, endless_cd_m2, behind_cd_m2);
 }
 
 sky::models::AirBetween DeferredAir::between(const glm::dvec3& direction_enu,

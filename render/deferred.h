@@ -27,6 +27,9 @@ struct DeferredInput {
     unsigned depth_texture = 0;
     /// Of the far plane, metres, > 0.
     double far_m = 100e3;
+    /// The clouds' shadows fall on what is drawn. It is then told in the area's mean light under clouds, and
+    /// gets what a level surface gets there; false: it has its own shadows.
+    bool shadows = true;
 };
 
 /// The air between the eye and things for a frame's Sun and Moon, kept fresh in slices like LightTables. Free

@@ -53,6 +53,7 @@ DeferredPass::DeferredPass()
             {program_.uniform("u_veil_lux[0]"), program_.uniform("u_veil_lux[1]")},
             {program_.uniform("u_veil_enu[0]"), program_.uniform("u_veil_enu[1]")},
             {program_.uniform("u_veil_beyond[0]"), program_.uniform("u_veil_beyond[1]")}},
+      clouds_(program_),
       veil_segments_(gl::TexelFormat::kRgba32F, kVeilColumns, kVeilRows),
       veil_texels_(std::size_t{4} * kVeilColumns * kVeilRows) {
     program_.set(program_.uniform("u_table_size"),
@@ -110,7 +111,9 @@ void DeferredPass::upload_veil(const DeferredAir& air) {
     }
 }
 
-void DeferredPass::prepare(const DeferredAir& air, bool dither) {
+void DeferredPass::prepare(const DeferredAir& air, const CloudFrame& clouds, const GroundShadow& shadow,
+                           bool dither) {
+    clouds_.prepare(program_, clouds, shadow);
     if (uploaded_ != air.revision()) upload(air);
     for (std::size_t i = 0; i < air.source_count(); ++i) {
         program_.set(sources_[i].direction, glm::vec3{air.source(i).direction_enu});
@@ -140,6 +143,7 @@ void DeferredPass::draw(const ChannelView& view, const DeferredInput& input,
         gl::bind_texture(4 + 2 * i, haze_[static_cast<std::size_t>(i)].name());
     }
     gl::bind_texture(7, veil_segments_.name());
+    clouds_.bind(program_, input.shadows);
     triangle_.draw_strip(3);
 }
 

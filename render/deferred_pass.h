@@ -10,6 +10,7 @@
 #include "render/gl/mesh.h"
 #include "render/gl/program.h"
 #include "render/gl/texture.h"
+#include "render/thing_clouds.h"
 
 namespace skyig::render {
 
@@ -18,8 +19,8 @@ class DeferredPass {
     /// \throws std::runtime_error when the program or the textures cannot be made
     DeferredPass();
 
-    /// Once a frame. \param air  of the frame
-    void prepare(const DeferredAir& air, bool dither);
+    /// Once a frame. \param air  of the frame, as the others
+    void prepare(const DeferredAir& air, const CloudFrame& clouds, const GroundShadow& shadow, bool dither);
     /// Into the framebuffer that is bound, without blending.
     void draw(const ChannelView& view, const DeferredInput& input,
               const shaders32::ToneParameters& tone) const;
@@ -45,6 +46,7 @@ class DeferredPass {
         std::array<int, 2> lux, direction, beyond;
     };
     VeilUniforms veil_;
+    ThingClouds clouds_;
     gl::Texture veil_segments_;
     std::vector<float> veil_texels_;
     std::uint64_t uploaded_ = 0;

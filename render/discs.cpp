@@ -103,8 +103,8 @@ void ToneUniforms::set(const gl::Program& program, const shaders32::ToneParamete
     program.set(inv_display_max_, tone.inv_display_max);
 }
 
-DiscPass::DiscPass(std::string_view fragment, bool dithers)
-    : program_("sky/disc.vert", fragment),
+DiscPass::DiscPass(std::string_view fragment, gl::Placement placement, bool dithers)
+    : program_("sky/disc.vert", fragment, placement),
       strip_({2, 2, 3}, 2 * DiscFrame::kRows),
       tone_(program_, true),
       clip_(program_.uniform("u_clip_from_enu")),
@@ -152,7 +152,8 @@ void DiscPass::draw(const glm::mat4& clip_from_enu) const {
     strip_.draw_strip(2 * DiscFrame::kRows);
 }
 
-SunDisc::SunDisc() : pass_("sky/sun.frag", true), limb_(pass_.program().uniform("u_limb")) {}
+SunDisc::SunDisc(gl::Placement placement)
+    : pass_("sky/sun.frag", placement, true), limb_(pass_.program().uniform("u_limb")) {}
 
 void SunDisc::prepare(const Scene& scene, const SkyFrame& sky, double pixel_rad,
                       const shaders32::ToneParameters& tone, bool dither) {
@@ -164,7 +165,8 @@ void SunDisc::prepare(const Scene& scene, const SkyFrame& sky, double pixel_rad,
     pass_.program().set(limb_, kLimb);
 }
 
-Corona::Corona() : pass_("sky/corona.frag", false), share_(pass_.program().uniform("u_share")) {}
+Corona::Corona(gl::Placement placement)
+    : pass_("sky/corona.frag", placement, false), share_(pass_.program().uniform("u_share")) {}
 
 void Corona::prepare(const Scene& scene, const SkyFrame& sky, double pixel_rad,
                      const shaders32::ToneParameters& tone, double share) {
@@ -172,8 +174,8 @@ void Corona::prepare(const Scene& scene, const SkyFrame& sky, double pixel_rad,
     pass_.program().set(share_, static_cast<float>(share));
 }
 
-MoonDisc::MoonDisc()
-    : pass_("night/moon.frag", true),
+MoonDisc::MoonDisc(gl::Placement placement)
+    : pass_("night/moon.frag", placement, true),
       map_(gl::TexelFormat::kR32F, night::kMoonMapSize, night::kMoonMapSize, 0, kMapLevels),
       face_(pass_.program().uniform("u_full_cd_m2")),
       earthshine_(pass_.program().uniform("u_earthshine_cd_m2")),

@@ -33,7 +33,7 @@ class DiscPass {
     /// \param fragment  shader of the disc
     /// \param dithers  whether it has the uniform for it
     /// \throws std::runtime_error when the program cannot be made
-    DiscPass(std::string_view fragment, bool dithers);
+    DiscPass(std::string_view fragment, gl::Placement placement, bool dithers);
 
     /// \param frame  before clouds stand in front of it
     void prepare(const SkyFrame& sky, DiscFrame frame, const shaders32::ToneParameters& tone, bool dither);
@@ -53,7 +53,7 @@ class DiscPass {
 
 class SunDisc {
   public:
-    SunDisc();
+    explicit SunDisc(gl::Placement placement);
     void prepare(const Scene& scene, const SkyFrame& frame, double pixel_rad,
                  const shaders32::ToneParameters& tone, bool dither);
     void draw(const glm::mat4& clip_from_enu) const { pass_.draw(clip_from_enu); }
@@ -66,7 +66,7 @@ class SunDisc {
 /// Seen when the Moon covers the Sun; blended by adding.
 class Corona {
   public:
-    Corona();
+    explicit Corona(gl::Placement placement);
     void prepare(const Scene& scene, const SkyFrame& frame, double pixel_rad,
                  const shaders32::ToneParameters& tone, double share);
     void draw(const glm::mat4& clip_from_enu) const { pass_.draw(clip_from_enu); }
@@ -78,7 +78,7 @@ class Corona {
 
 class MoonDisc {
   public:
-    MoonDisc();
+    explicit MoonDisc(gl::Placement placement);
     /// \param fovea  the eye that looks at it; \param veil  its own glare
     void prepare(const Scene& scene, const SkyFrame& frame, double pixel_rad,
                  const shaders32::ToneParameters& tone, bool dither, const shaders64::Fovea& fovea,

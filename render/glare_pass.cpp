@@ -5,8 +5,8 @@
 
 namespace skyig::render {
 
-GlarePass::GlarePass()
-    : program_("eye/glare.vert", "eye/glare.frag"),
+GlarePass::GlarePass(gl::Placement placement)
+    : program_("eye/glare.vert", "eye/glare.frag", placement),
       rings_({2, 3, 3}, Glare::kVertices),
       clip_(program_.uniform("u_clip_from_enu")),
       source_(program_.uniform("u_enu_from_source")),

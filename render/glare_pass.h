@@ -12,7 +12,7 @@ namespace skyig::render {
 class GlarePass {
   public:
     /// \throws std::runtime_error when the program cannot be made
-    GlarePass();
+    explicit GlarePass(gl::Placement placement);
 
     void prepare(const Glare& glare, double pixel_rad, bool dither);
     void draw(const glm::mat4& clip_from_enu) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/cloud/shadow_map.h"
 #include "render/cloud_models.h"
 #include "render/dome_bend.h"
 #include "render/eye/point_threshold.h"
@@ -63,6 +64,8 @@ constexpr std::array<TableSize, 3> kTables{
 // The table errs smoothly over degrees, where no eye finds an edge: it may err by this many budgets.
 constexpr double kTableShare = 8.0;
 
+constexpr std::string_view kThinnedOut = "thinned out for the frame rate";
+
 struct Verdict {
     bool needed;
     std::string_view reason;
@@ -108,6 +111,7 @@ Cost cost_of(Pass pass) {
             return Cost::kNewTable;
         case Pass::kClouds:
         case Pass::kNearClouds:
+        case Pass::kCloudShadows:
             return Cost::kFrame;
         case Pass::kDome:
         case Pass::kWaves:
@@ -120,6 +124,8 @@ Cost cost_of(Pass pass) {
         case Pass::kPrecipitation:
         case Pass::kSunGlare:
         case Pass::kMoonGlare:
+        case Pass::kPattern:
+        case Pass::kOverlay:
             break;
     }
     return Cost::kChannel;
@@ -176,14 +182,49 @@ void plan_night(Plan& plan, double sun_rad) {
     put(plan, Pass::kMilkyWay, {false, "not decided yet"});
 }
 
+void plan_over_pictures(Plan& plan, const Scene& scene) {
+    const auto views = scene.channel_views();
+    const bool pattern = std::any_of(views.begin(), views.end(),
+                                     [](const ChannelView& view) { return view.pattern != Pattern::kOff; });
+    put(plan, Pass::kPattern,
+        pattern ? Verdict{true, "a channel shows it in place of the sky"}
+                : Verdict{false, "no channel is asked to show one"});
+    const bool text =
+        std::any_of(views.begin(), views.end(), [](const ChannelView& view) { return view.overlay != 0; });
+    put(plan, Pass::kOverlay,
+        text ? Verdict{true, "a channel shows lines of text"} : Verdict{false, "no channel shows any text"});
+}
+
 }  // namespace
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables",  "sun sky",   "moon sky",   "night sky",     "veil",      "clouds",
-        "near clouds", "dome",      "waves",      "milky way",     "stars",     "corona",
-        "sun disc",    "moon disc", "wet things", "precipitation", "sun glare", "moon glare"};
+        "air tables",    "sun sky",    "moon sky",      "night sky", "veil",       "clouds",  "near clouds",
+        "cloud shadows", "dome",       "waves",         "milky way", "stars",      "corona",  "sun disc",
+        "moon disc",     "wet things", "precipitation", "sun glare", "moon glare", "pattern", "overlay"};
     return kNames[static_cast<std::size_t>(pass)];
+}
+
+std::string_view thin_name(Thin thin) noexcept {
+    constexpr std::array<std::string_view, kThinCount> kNames{
+        "cloud-refresh", "cloud-motion", "dome", "stars", "precipitation", "waves", "glare", "milky-way"};
+    return kNames[static_cast<std::size_t>(thin)];
+}
+
+Thinned thinnable(const Plan& plan) noexcept {
+    Thinned would;
+    const auto note = [&](Thin thin, bool there) {
+        would[static_cast<std::size_t>(thin)] = there && !plan.thins(thin);
+    };
+    note(Thin::kCloudRefresh, plan.needs(Pass::kClouds));
+    note(Thin::kCloudMotion, plan.needs(Pass::kClouds));
+    note(Thin::kDome, plan.needs(Pass::kDome));
+    note(Thin::kStars, plan.needs(Pass::kStars));
+    note(Thin::kPrecipitation, plan.needs(Pass::kPrecipitation));
+    note(Thin::kWaves, plan.needs(Pass::kWaves));
+    note(Thin::kGlare, plan.needs(Pass::kSunGlare) || plan.needs(Pass::kMoonGlare));
+    note(Thin::kMilkyWay, plan.needs(Pass::kMilkyWay));
+    return would;
 }
 
 std::string_view cost_name(Cost cost) noexcept {
@@ -216,6 +257,7 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     const double moon_rad = horizontal_of(scene.moon.direction_enu).elevation_rad;
     Plan plan;
     plan.forced = quality.forced;
+    plan.thinned = quality.thinned;
     plan.sky_model = scene.sky.model;
     plan.table = direction_table_size(quality);
     const bool air_stale = !held.air_valid || !held.air_fresh;
@@ -225,7 +267,10 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kVeil, {false, "not decided yet"});
     put(plan, Pass::kClouds, {false, "not decided yet"});
     put(plan, Pass::kNearClouds, {false, "not decided yet"});
-    put(plan, Pass::kDome, {true, "smooth light of all directions"});
+    put(plan, Pass::kCloudShadows, {false, "not decided yet"});
+    put(plan, Pass::kDome,
+        {true, plan.thins(Thin::kDome) ? "smooth light of all directions, coarser: thinned out"
+                                       : "smooth light of all directions"});
     put(plan, Pass::kWaves, {false, "not decided yet"});
     put(plan, Pass::kStars, {false, "not decided yet"});
     plan.corona_share = smooth_step(kCoronaBegins, kCoronaWhole, scene.sun.unobscured);
@@ -238,9 +283,13 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
         plan_disc(scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad, sets_at_rad));
     const bool wet = scene.ground.kind == Ground::Kind::kLand && scene.ground.wet > 0.0;
     put(plan, Pass::kWetThings, {wet, wet ? "another renderer's land is wet" : "the land is dry"});
-    put(plan, Pass::kPrecipitation, plan_precipitation(scene));
+    Verdict falls = plan_precipitation(scene);
+    if (falls.needed && plan.thins(Thin::kPrecipitation))
+        falls.reason = "something falls round the eye: half the streaks, thinned out";
+    put(plan, Pass::kPrecipitation, falls);
     for (const Pass pass : {Pass::kSunGlare, Pass::kMoonGlare})
         put(plan, pass, {false, "not decided yet"});
+    plan_over_pictures(plan, scene);
     return plan;
 }
 
@@ -268,13 +317,25 @@ void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bo
     const auto layers = scene.weather.all_clouds();
     const bool any = std::any_of(layers.begin(), layers.end(),
                                  [](const CloudLayer& layer) { return layer.coverage > 0.0; });
-    put(plan, Pass::kClouds, {any, drawn_models(scene.weather)});
+    const bool slower = any && (plan.thins(Thin::kCloudRefresh) || plan.thins(Thin::kCloudMotion));
+    put(plan, Pass::kClouds,
+        {any, slower ? "followed more slowly: thinned out" : drawn_models(scene.weather)});
     put(plan, Pass::kNearClouds,
         !any         ? Verdict{false, "no layer has any"}
         : near_shown ? Verdict{true, "the eye is in a layer or soon may be"}
                      : Verdict{false, "no layer is near the eye's height"});
     plan.passes[static_cast<std::size_t>(Pass::kClouds)].resolution = {2 * map_size, map_size};
     plan.passes[static_cast<std::size_t>(Pass::kNearClouds)].resolution = {2 * near_size, near_size};
+}
+
+void plan_cloud_shadows(Plan& plan, const cloud::ShadowMap& map, bool told) noexcept {
+    put(plan, Pass::kCloudShadows,
+        !plan.needs(Pass::kClouds) ? Verdict{false, "no layer has any clouds"}
+        : !map.shown()             ? Verdict{false, "neither Sun nor Moon stands high enough to cast any"}
+        : !told ? Verdict{false, "the ground lies in even light: no gaps, or nothing but gaps"}
+                : Verdict{true, "single clouds cast shadows; they ride on the cloud map"});
+    plan.passes[static_cast<std::size_t>(Pass::kCloudShadows)].resolution = {
+        cloud::ShadowMap::kLevels * cloud::ShadowMap::kCells, cloud::ShadowMap::kCells};
 }
 
 void plan_waves(Plan& plan, const Scene& scene, const sky::SeaWaves& waves, bool lit) noexcept {
@@ -289,6 +350,8 @@ void plan_waves(Plan& plan, const Scene& scene, const sky::SeaWaves& waves, bool
         put(plan, Pass::kWaves, {false, "no wave is two pixels long, seen from here"});
     } else if (!lit) {
         put(plan, Pass::kWaves, {false, "neither Sun nor Moon lights them"});
+    } else if (plan.thins(Thin::kWaves)) {
+        put(plan, Pass::kWaves, {false, kThinnedOut});
     } else {
         put(plan, Pass::kWaves, {true, "pixels resolve waves near the eye"});
     }
@@ -299,6 +362,8 @@ void plan_glare(Plan& plan, Pass pass, bool enabled, double reach_rad) noexcept 
         put(plan, pass, {false, "switched off"});
     } else if (reach_rad <= 0.0) {
         put(plan, pass, {false, "adds less than half a code to the sky"});
+    } else if (plan.thins(Thin::kGlare)) {
+        put(plan, pass, {false, kThinnedOut});
     } else {
         put(plan, pass, {true, "the eye spreads the disc's light"});
     }
@@ -324,10 +389,17 @@ void plan_stars(Plan& plan, const Scene& scene, const PointBackgrounds& backgrou
     plan.stars.seen_only = !forced;
     plan.stars.twinkle_limit_mag = half_code_mag + 2.5 * std::log10(std::max(flicker, 1e-9));
     plan.stars.twinkle = scene.sky.star_scintillation && brightest_mag < plan.stars.twinkle_limit_mag;
+    const bool thinned = !forced && plan.thins(Thin::kStars);
+    if (thinned) {
+        plan.stars.limit_mag -= kThinnedStars_mag;
+        plan.stars.twinkle = false;
+    }
     if (!scene.stars.enabled || scene.stars.intensity <= 0.0) {
         put(plan, Pass::kStars, {false, "switched off"});
     } else if (outshone) {
         put(plan, Pass::kStars, {false, "the sky outshines every star and planet"});
+    } else if (thinned) {
+        put(plan, Pass::kStars, {true, "some stars outshine the sky; the faintest are thinned out"});
     } else if (plan.stars.twinkle) {
         put(plan, Pass::kStars, {true, "some stars outshine the sky, and twinkle"});
     } else {
@@ -345,6 +417,8 @@ void plan_milky_way(Plan& plan, const Scene& scene, double most_codes) noexcept 
         put(plan, Pass::kMilkyWay, {false, "switched off"});
     } else if (most_codes < kLeast_codes) {
         put(plan, Pass::kMilkyWay, {false, "below half a code before this sky"});
+    } else if (plan.thins(Thin::kMilkyWay)) {
+        put(plan, Pass::kMilkyWay, {false, kThinnedOut});
     } else {
         put(plan, Pass::kMilkyWay, {true, "it shows before this sky"});
     }

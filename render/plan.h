@@ -16,6 +16,9 @@ namespace skyig::render {
 
 class DomeBend;
 struct DomeSize;
+namespace cloud {
+class ShadowMap;
+}
 
 /// When a pass costs.
 enum class Cost { kNewAir, kNewTable, kFrame, kChannel };
@@ -83,12 +86,26 @@ struct Plan {
     /// Nodes of the direction tables.
     sky::SkyViewSize table;
     std::bitset<kPassCount> forced;
+    Thinned thinned;
 
     [[nodiscard]] const PlannedPass& operator[](Pass pass) const noexcept {
         return passes[static_cast<std::size_t>(pass)];
     }
     [[nodiscard]] bool needs(Pass pass) const noexcept { return (*this)[pass].needed; }
+    [[nodiscard]] bool thins(Thin thin) const noexcept { return thinned[static_cast<std::size_t>(thin)]; }
 };
+
+/// What of Thin would make the next frame cheaper, this one being as it is; what it leaves out already does
+/// not count.
+[[nodiscard]] Thinned thinnable(const Plan& plan) noexcept;
+
+/// By how many magnitudes the limit of stars is brighter when they are thinned: a fifth of them is left.
+inline constexpr double kThinnedStars_mag = 1.5;
+/// How many times the budget of errors the dome has when it is thinned.
+inline constexpr double kThinnedDome = 4.0;
+
+/// Part of the streaks that are drawn when they are thinned.
+inline constexpr double kThinnedPrecipitation = 0.5;
 
 /// Nodes of the direction tables for a budget. \see direction_table_error_codes()
 [[nodiscard]] sky::SkyViewSize direction_table_size(const Quality& quality) noexcept;
@@ -114,6 +131,9 @@ void plan_veil(Plan& plan, const Scene& scene, std::size_t segments) noexcept;
 /// Decides on the cloud maps. \param map_size  texels on the side of a half; \param near_size  likewise
 /// \param near_shown  whether clouds may stand round the eye
 void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bool near_shown) noexcept;
+
+/// Decides on the clouds' shadows, after plan_clouds(). \param told  whether they differ from the mean
+void plan_cloud_shadows(Plan& plan, const cloud::ShadowMap& map, bool told) noexcept;
 
 /// Decides on the waves of the sea, drawn over `resolution` of the dome's quads. \param waves  that a pixel
 /// resolves below the eye \param lit  whether Sun or Moon light the air over a sea

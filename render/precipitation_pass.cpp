@@ -26,8 +26,8 @@ std::vector<std::uint32_t> quads() {
 
 }  // namespace
 
-PrecipitationPass::Shader::Shader(std::string_view fragment)
-    : program("precipitation/streak.vert", fragment),
+PrecipitationPass::Shader::Shader(std::string_view fragment, gl::Placement placement)
+    : program("precipitation/streak.vert", fragment, placement),
       tone(program, true),
       view(program.uniform("u_view_from_enu")),
       plane_origin(program.uniform("u_plane_origin")),
@@ -36,14 +36,14 @@ PrecipitationPass::Shader::Shader(std::string_view fragment)
       mean(program.uniform("u_mean_cd_m2")),
       gradient(program.uniform("u_gradient_cd_m2")) {}
 
-PrecipitationPass::PrecipitationPass()
-    : sky_("precipitation/streak.frag"), vertices_(4 * kMost), mesh_({3, 3, 2}, 4 * kMost) {
+PrecipitationPass::PrecipitationPass(gl::Placement placement)
+    : sky_("precipitation/streak.frag", placement), vertices_(4 * kMost), mesh_({3, 3, 2}, 4 * kMost) {
     mesh_.set_indices(quads());
 }
 
-void PrecipitationPass::prepare(const Scene& scene, const SkyLight& light, double pixel_rad) {
+void PrecipitationPass::prepare(const Scene& scene, const SkyLight& light, double pixel_rad, double density) {
     pixel_rad_ = pixel_rad;
-    field_.update(scene);
+    field_.update(scene, density);
     const Surroundings around = surroundings(light);
     for (const auto& group : field_.groups())
         shown_[static_cast<std::size_t>(group.kind)] = shown_by(group.kind, around);

@@ -23,10 +23,11 @@ namespace skyig::render {
 class PrecipitationPass {
   public:
     /// \throws std::runtime_error when the program cannot be made
-    PrecipitationPass();
+    explicit PrecipitationPass(gl::Placement placement);
 
     /// Once a frame whose plan needs it. \param pixel_rad  of the finest channel: edges are softened over it
-    void prepare(const Scene& scene, const SkyLight& light, double pixel_rad);
+    /// \param density  of the streaks \see precipitation::StreakField::update()
+    void prepare(const Scene& scene, const SkyLight& light, double pixel_rad, double density = 1.0);
 
     /// Blends by coverage over whatever the channel holds, into the framebuffer that is bound.
     void draw(const ChannelView& view, const shaders32::ToneParameters& tone);
@@ -45,7 +46,7 @@ class PrecipitationPass {
         glm::vec2 shape;
     };
     struct Shader {
-        explicit Shader(std::string_view fragment);
+        explicit Shader(std::string_view fragment, gl::Placement placement = gl::Placement::kFlat);
         gl::Program program;
         ToneUniforms tone;
         int view, plane_origin, plane_size, pixel, mean, gradient;

@@ -8,16 +8,17 @@
 namespace skyig::render {
 
 enum class Pass {
-    kAirTables,   ///< optical columns and multiple scattering of a new air
-    kSunSky,      ///< direction table of sunlit air
-    kMoonSky,     ///< direction table of moonlit air
-    kNightSky,    ///< direction table of airglow, zodiacal light, even starlight, towns
-    kVeil,        ///< light of fog, haze, dust and their like, on the dome's vertices
-    kClouds,      ///< map of far clouds for all channels
-    kNearClouds,  ///< map of clouds round the eye
-    kDome,        ///< smooth light of all directions, toned at the vertices
-    kWaves,       ///< waves of the sea, where pixels resolve them
-    kMilkyWay,    ///< what the Milky Way adds to even starlight
+    kAirTables,     ///< optical columns and multiple scattering of a new air
+    kSunSky,        ///< direction table of sunlit air
+    kMoonSky,       ///< direction table of moonlit air
+    kNightSky,      ///< direction table of airglow, zodiacal light, even starlight, towns
+    kVeil,          ///< light of fog, haze, dust and their like, on the dome's vertices
+    kClouds,        ///< map of far clouds for all channels
+    kNearClouds,    ///< map of clouds round the eye
+    kCloudShadows,  ///< map of single clouds' shadows on the ground
+    kDome,          ///< smooth light of all directions, toned at the vertices
+    kWaves,         ///< waves of the sea, where pixels resolve them
+    kMilkyWay,      ///< what the Milky Way adds to even starlight
     kStars,
     kCorona,  ///< what is left of the Sun in a total eclipse
     kSunDisc,
@@ -26,10 +27,30 @@ enum class Pass {
     kPrecipitation,  ///< streaks of what falls near the eye
     kSunGlare,       ///< the veil round the disc in the eye
     kMoonGlare,
+    kPattern,  ///< a test pattern in place of the sky
+    kOverlay,  ///< texts over the picture
 };
-inline constexpr std::size_t kPassCount = 18;
+inline constexpr std::size_t kPassCount = 21;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
+
+/// What a frame may leave out where it would else take too long. The numbers stand in recordings: new ones
+/// come last.
+enum class Thin {
+    kCloudRefresh,   ///< the cloud map is renewed at a third of its pace
+    kCloudMotion,    ///< its tiles follow the eye in steps four times as large
+    kDome,           ///< smooth light has four times its budget of errors
+    kStars,          ///< those of the faintest 1.5 magnitudes, and that others twinkle
+    kPrecipitation,  ///< half the streaks, each the more opaque
+    kWaves,          ///< resolved waves of the sea
+    kGlare,          ///< the veils round Sun and Moon
+    kMilkyWay,       ///< its structure: even starlight stays
+};
+inline constexpr std::size_t kThinCount = 8;
+using Thinned = std::bitset<kThinCount>;
+
+/// As the settings and the status write it: "cloud-refresh".
+[[nodiscard]] std::string_view thin_name(Thin thin) noexcept;
 
 /// How far the picture may be off, and what is done for measurements.
 struct Quality {
@@ -42,6 +63,8 @@ struct Quality {
     int cloud_tiles_a_frame = 12;
     /// Passes that run even where they would not show. With Pass::kStars no star is too faint.
     std::bitset<kPassCount> forced;
+    /// What is left out for the frame rate's sake.
+    Thinned thinned;
 };
 
 /// Step of luminance from one code to the next at middle grey on a display of gamma 2.2, percent.

@@ -1,25 +1,34 @@
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "render/blend_pass.h"
+#include "render/channel_pictures.h"
 #include "render/cloud_pass.h"
 #include "render/deferred_pass.h"
 #include "render/discs.h"
 #include "render/eye/tone_curve.h"
 #include "render/gl/debug_log.h"
 #include "render/gl/draw.h"
-#include "render/gl/framebuffer.h"
-#include "render/gl/mesh.h"
 #include "render/gl/program.h"
 #include "render/glare_pass.h"
 #include "render/milky_way_pass.h"
+#include "render/overlay/overlay_text.h"
+#include "render/overlay/text_pass.h"
+#include "render/pattern/pattern_text.h"
+#include "render/pattern_pass.h"
 #include "render/precipitation_pass.h"
+#include "render/refined_mesh.h"
 #include "render/screens.h"
 #include "render/sea_pass.h"
 #include "render/sky_frame.h"
 #include "render/star_pass.h"
+#include "render/warp_pass.h"
 #include "render/wet_pass.h"
 
 namespace skyig::render {
@@ -54,22 +63,44 @@ struct Renderer::Impl {
          Target target)
         : channels(std::move(channel_list)),
           display(display_settings),
+          pixels_hold(target),
           screens(screens_of(channels, display_settings)),
+          pictures(channels, pixel_format(target)),
+          shows_screen(target == Target::kDisplay),
+          target_format(pixel_format(target)),
+          flat_pictures(channels.size()),
+          blend(channels, display_settings.dither),
           frame(display_settings, quality, screens.distinct, target) {
         display.dither = display.dither && target == Target::kDisplay;
         for (const Channel& channel : channels)
-            targets.emplace_back(channel.width_px, channel.height_px, pixel_format(target));
+            flat_channels.push_back(flat_picture_of(channel));
         for (std::size_t i = 0; i < screens.distinct.size(); ++i)
-            dome_meshes.emplace_back(std::initializer_list<int>{3, 3, 3}, Dome::kMaxVertices);
+            dome_meshes.emplace_back(std::initializer_list<int>{3, 3, 3}, Dome::kMaxVertices,
+                                     placement == gl::Placement::kWarped);
         dome_program.set(dome_program.uniform("u_dither_codes"), display.dither ? 1.0F : 0.0F);
         gl::set_common_state();
     }
 
+    void begin(std::size_t channel, bool flat);
+    void finish(std::size_t channel);
+    /// What the channel that is begun draws into.
+    [[nodiscard]] const Channel& drawn(std::size_t channel) const noexcept {
+        return draws_flat ? flat_channels[channel] : pictures.drawn(channel);
+    }
+    [[nodiscard]] glm::dmat4 shown_from_clip(std::size_t channel) const noexcept {
+        return draws_flat ? glm::dmat4{1.0} : warps.shown_from_clip(channel);
+    }
+    [[nodiscard]] bool shows_pattern(std::size_t channel) const noexcept {
+        return shows_screen && scene.views[channel].pattern != Pattern::kOff;
+    }
+    void draw_pattern(std::size_t channel);
+    void write_texts(std::size_t channel);
     void upload_dome();
     void prepare_discs(std::size_t screen);
     void prepare_moon(std::size_t screen);
     void draw_dome(std::size_t channel, const glm::dmat4& clip_from_enu);
-    void draw_clouded_dome(std::size_t channel, const glm::dmat4& clip_from_mesh, std::uint32_t sea_rows);
+    void draw_clouded_dome(std::size_t channel, const glm::dmat4& clip_from_mesh,
+                           const glm::dmat4& shown_from_mesh, std::uint32_t sea_rows);
     void prepare_clouds();
     [[nodiscard]] const CloudPass* shown_clouds() const noexcept {
         return frame.clouds().shown() ? clouds.get() : nullptr;
@@ -80,51 +111,115 @@ struct Renderer::Impl {
     [[nodiscard]] shaders32::ToneParameters tone32(std::size_t channel) const {
         return eye::single_precision(frame.tone(screens.of_channel[channel]));
     }
+    void draw_world(std::size_t channel);
     void draw_sky(std::size_t channel);
     void draw_discs(std::size_t channel);
     void draw_wet(std::size_t channel, const DeferredInput& input);
 
     std::vector<Channel> channels;
     DisplaySettings display;
+    Target pixels_hold;
     Screens screens;
     gl::DebugLog log;
-    std::vector<gl::Framebuffer> targets;
-    gl::Program dome_program{"sky/dome.vert", "sky/dome.frag"};
+    ChannelPictures pictures;
+    bool shows_screen;  // else light itself
+    gl::PixelFormat target_format;
+    std::vector<Channel> flat_channels;
+    std::vector<std::optional<gl::Framebuffer>> flat_pictures;  // once one is resampled
+    gl::Placement placement = placement_of(channels);
+    WarpPass warps{channels};
+    BlendPass blend;
+    gl::Program dome_program{"sky/dome.vert", "sky/dome.frag", placement};
     int dome_clip = dome_program.uniform("u_clip_from_mesh");
     int dome_half_size = dome_program.uniform("u_half_size_px");
     int dome_share = dome_program.uniform("u_share");
-    std::vector<gl::Mesh> dome_meshes;  // one a screen
+    std::vector<RefinedMesh> dome_meshes;  // one a screen
     std::uint64_t triangles_revision = 0;
     std::uint64_t vertices_revision = 0;
     std::unique_ptr<CloudPass> clouds;  // once there are any
-    SeaPass sea{screens.distinct.size()};
-    MilkyWayPass milky_way{screens.distinct.size()};
-    StarPass stars;
-    Corona corona;
-    SunDisc sun_disc;
-    MoonDisc moon_disc;
-    PrecipitationPass precipitation;
-    GlarePass sun_glare;
-    GlarePass moon_glare;
+    SeaPass sea{screens.distinct.size(), placement};
+    MilkyWayPass milky_way{screens.distinct.size(), placement};
+    StarPass stars{placement};
+    Corona corona{placement};
+    SunDisc sun_disc{placement};
+    MoonDisc moon_disc{placement};
+    PrecipitationPass precipitation{placement};
+    GlarePass sun_glare{placement};
+    GlarePass moon_glare{placement};
     std::unique_ptr<DeferredPass> deferred;  // once a scene is drawn
     std::unique_ptr<WetPass> wet;            // once a wet one is
+    std::unique_ptr<PatternPass> patterns;   // once one is shown
+    std::unique_ptr<TextPass> texts;         // once there are any
 
     // The frame in hand.
     SkyFrame frame;
     Scene scene;
     double pixel_rad = 1e-3;
+    double longest_edge_rad = std::numbers::pi;  // of a triangle in the rig's warped channels
+    double uploaded_edge_rad = 0.0;
+    bool draws_flat = false;
     std::size_t discs_screen = 0;  // what discs are prepared for
     FrameReport report;
 };
 
-void Renderer::Impl::upload_dome() {
-    for (std::size_t screen = 0; screen < dome_meshes.size(); ++screen) {
-        gl::Mesh& mesh = dome_meshes[screen];
-        if (triangles_revision != frame.triangles_revision()) mesh.set_indices(frame.dome().indices());
-        if (vertices_revision == frame.vertices_revision()) continue;
-        const auto vertices = frame.dome().vertices(screen);
-        mesh.update({reinterpret_cast<const float*>(vertices.data()), vertices.size_bytes() / sizeof(float)});
+void Renderer::Impl::begin(std::size_t channel, bool flat) {
+    draws_flat = flat && channels[channel].warp;
+    pictures.begin(channel);
+    if (!draws_flat) {
+        warps.bind(channel);
+        return;
     }
+    std::optional<gl::Framebuffer>& picture = flat_pictures[channel];
+    const Channel& size = flat_channels[channel];
+    if (!picture) picture.emplace(size.width_px, size.height_px, target_format);
+    warps.bind_flat();
+    picture->bind();
+}
+
+/// From what is drawn to the picture.
+void Renderer::Impl::finish(std::size_t channel) {
+    if (draws_flat) {
+        pictures.begin(channel);
+        warps.resample(channel, *flat_pictures[channel]);
+    }
+    pictures.finish(channel);
+    if (shows_screen) blend.draw(channel, pictures.whole(channel), tone32(channel).encode_power);
+    if (shows_pattern(channel) || (shows_screen && scene.views[channel].overlay != 0)) write_texts(channel);
+    gl::finish();
+}
+
+void Renderer::Impl::draw_pattern(std::size_t channel) {
+    if (!patterns) patterns = std::make_unique<PatternPass>(placement);
+    gl::set_blend(gl::Blend::kReplace);
+    patterns->draw(drawn(channel), pictures.view(channel), clip_from_enu(channel),
+                   screens.distinct[screens.of_channel[channel]], channel);
+}
+
+void Renderer::Impl::write_texts(std::size_t channel) {
+    if (!texts) texts = std::make_unique<TextPass>();
+    texts->clear();
+    const Channel& picture = channels[channel];
+    write_pattern_text(*texts, picture, scene.views[channel]);
+    // Patterns are as bright by night as by day.
+    const double code = shows_pattern(channel) ? kDayTextCode : text_code(frame.adaptation_cd_m2());
+    write_overlay(*texts, picture, scene.overlay, scene.views[channel].overlay, code);
+    gl::set_blend(gl::Blend::kCoverage);
+    texts->draw(picture.width_px, picture.height_px);
+}
+
+void Renderer::Impl::upload_dome() {
+    const bool triangles =
+        triangles_revision != frame.triangles_revision() || uploaded_edge_rad != longest_edge_rad;
+    for (std::size_t screen = 0; screen < dome_meshes.size(); ++screen) {
+        const auto dome = frame.dome().vertices(screen);
+        const std::span<const float> vertices{reinterpret_cast<const float*>(dome.data()),
+                                              dome.size_bytes() / sizeof(float)};
+        if (triangles)
+            dome_meshes[screen].set_triangles(frame.dome().indices(), vertices, longest_edge_rad);
+        else if (vertices_revision != frame.vertices_revision())
+            dome_meshes[screen].set_vertices(vertices);
+    }
+    uploaded_edge_rad = longest_edge_rad;
     triangles_revision = frame.triangles_revision();
     vertices_revision = frame.vertices_revision();
 }
@@ -149,8 +244,9 @@ void Renderer::Impl::prepare_moon(std::size_t screen) {
 }
 
 void Renderer::Impl::draw_dome(std::size_t index, const glm::dmat4& clip_from_enu) {
-    const Channel& channel = channels[index];
+    const Channel& channel = drawn(index);
     const glm::dmat4 clip_from_mesh = clip_from_enu * frame.enu_from_mesh();
+    const glm::dmat4 shown_from_mesh = shown_from_clip(index) * clip_from_mesh;
     dome_program.use();
     dome_program.set(dome_clip, glm::mat4{clip_from_mesh});
     dome_program.set(dome_half_size, 0.5F * glm::vec2{channel.width_px, channel.height_px});
@@ -159,29 +255,29 @@ void Renderer::Impl::draw_dome(std::size_t index, const glm::dmat4& clip_from_en
     const auto sea_rows = static_cast<std::uint32_t>(frame.sea_rows());
     const bool clouded = frame.clouds().shown();
     const Marked plain = clouded ? Marked::kNo : Marked::kAll;
-    for (const IndexRange& range : frame.dome().visible(clip_from_mesh, {.first = sea_rows}, plain))
-        dome_meshes[screen].draw_triangles(range.first, range.count);
+    for (const IndexRange& range : frame.dome().visible(shown_from_mesh, {.first = sea_rows}, plain))
+        dome_meshes[screen].draw(range);
     if (sea_rows > 0) {
         sea.draw(channel, screen, eye::single_precision(frame.tone(screen)), clip_from_mesh,
-                 frame.dome().visible(clip_from_mesh, {.end = sea_rows}));
+                 frame.dome().visible(shown_from_mesh, {.end = sea_rows}));
     }
-    if (clouded) draw_clouded_dome(index, clip_from_mesh, sea_rows);
+    if (clouded) draw_clouded_dome(index, clip_from_mesh, shown_from_mesh, sea_rows);
 }
 
 void Renderer::Impl::draw_clouded_dome(std::size_t index, const glm::dmat4& clip_from_mesh,
-                                       std::uint32_t sea_rows) {
+                                       const glm::dmat4& shown_from_mesh, std::uint32_t sea_rows) {
     const std::size_t screen = screens.of_channel[index];
     const auto draw_ranges = [&](std::span<const IndexRange> ranges) {
         for (const IndexRange& range : ranges)
-            dome_meshes[screen].draw_triangles(range.first, range.count);
+            dome_meshes[screen].draw(range);
     };
     clouds->bind(screen);
-    clouds->use_dome(channels[index], clip_from_mesh, frame.enu_from_mesh(), frame.dome().share());
+    clouds->use_dome(drawn(index), clip_from_mesh, frame.enu_from_mesh(), frame.dome().share());
     gl::set_clip_distances(3);
     for (int i = 0; i < kOctants; ++i) {
         const Octant octant = octant_of(i, frame.enu_from_mesh());
         const auto ranges =
-            frame.dome().visible(clip_from_mesh, octant.sides, {.first = sea_rows}, Marked::kYes);
+            frame.dome().visible(shown_from_mesh, octant.sides, {.first = sea_rows}, Marked::kYes);
         if (ranges.empty()) continue;
         clouds->take(octant);
         draw_ranges(ranges);
@@ -191,7 +287,7 @@ void Renderer::Impl::draw_clouded_dome(std::size_t index, const glm::dmat4& clip
     // Waves are drawn already.
     clouds->use_over(clip_from_mesh, frame.enu_from_mesh());
     gl::set_blend(gl::Blend::kOver);
-    draw_ranges(frame.dome().visible(clip_from_mesh, {.end = sea_rows}, Marked::kYes));
+    draw_ranges(frame.dome().visible(shown_from_mesh, {.end = sea_rows}, Marked::kYes));
     gl::set_blend(gl::Blend::kReplace);
 }
 
@@ -199,14 +295,14 @@ void Renderer::Impl::prepare_clouds() {
     report.cloud_rays = 0;
     report.cloud_tiles = 0;
     if (!frame.clouds().shown()) return;
-    if (!clouds) clouds = std::make_unique<CloudPass>(screens.distinct.size());
+    if (!clouds) clouds = std::make_unique<CloudPass>(screens.distinct.size(), placement);
     clouds->prepare(frame.clouds(), display.dither);
     report.cloud_rays = frame.clouds().map().rays_marched() + frame.clouds().map().near_rays();
     report.cloud_tiles = frame.clouds().toned().size();
 }
 
 void Renderer::Impl::refresh_deferred() {
-    deferred->prepare(frame.air_between(scene), display.dither);
+    deferred->prepare(frame.air_between(scene), frame.clouds(), frame.ground_shadow(), display.dither);
 }
 
 Renderer::Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality,
@@ -224,6 +320,10 @@ void Renderer::draw_clouds(Clouds clouds) {
     impl_->frame.draw_clouds(std::move(clouds));
 }
 
+void Renderer::thin(Thinned thinned) noexcept {
+    impl_->frame.thin(thinned);
+}
+
 const eye::Adaptation& Renderer::adaptation() const noexcept {
     return impl_->frame.adaptation();
 }
@@ -235,20 +335,23 @@ void Renderer::adapt_as(const eye::Adaptation& eyes) noexcept {
 const FrameReport& Renderer::prepare(const Scene& scene) {
     Impl& m = *impl_;
     m.scene = scene;
-    m.pixel_rad = finest_pixel_rad(m.channels, scene.channel_views());
-    m.frame.prepare(scene, m.pixel_rad, smallest_pixel_sr(m.channels, scene.channel_views()));
+    m.pictures.take(scene);
+    m.pixel_rad = finest_pixel_rad(m.pictures.drawn(), m.pictures.views());
+    m.frame.prepare(scene, m.pixel_rad, smallest_pixel_sr(m.pictures.drawn(), m.pictures.views()));
+    m.longest_edge_rad = longest_direct_edge_rad(m.pictures.drawn(), m.pictures.views());
     m.upload_dome();
     m.prepare_clouds();
-    if (m.frame.sea_rows() > 0) m.sea.prepare(m.frame, m.display.dither);
+    if (m.frame.sea_rows() > 0) m.sea.prepare(m.frame, m.display.dither, m.longest_edge_rad);
     if (m.frame.light().milky_way.map != nullptr)
-        m.milky_way.prepare(m.frame.milky_way(), m.frame.light(), m.display.dither);
+        m.milky_way.prepare(m.frame.milky_way(), m.frame.light(), m.display.dither, m.longest_edge_rad);
     m.report.stars_drawn = 0;
     if (m.frame.plan().needs(Pass::kStars)) {
         m.stars.prepare(scene, m.frame, m.pixel_rad);
         m.report.stars_drawn = m.stars.count();
     }
     if (m.frame.plan().needs(Pass::kPrecipitation))
-        m.precipitation.prepare(scene, m.frame.light(), m.pixel_rad);
+        m.precipitation.prepare(scene, m.frame.light(), m.pixel_rad,
+                                m.frame.plan().thins(Thin::kPrecipitation) ? kThinnedPrecipitation : 1.0);
     m.prepare_discs(0);
     if (m.deferred) m.refresh_deferred();
     if (m.wet && m.frame.plan().needs(Pass::kWetThings)) m.wet->prepare(scene, m.frame.light());
@@ -263,7 +366,7 @@ bool Renderer::Impl::shows(std::size_t channel) const noexcept {
 }
 
 glm::dmat4 Renderer::Impl::clip_from_enu(std::size_t channel) const noexcept {
-    const ChannelView& view = scene.views[channel];
+    const ChannelView& view = pictures.view(channel);
     return clip_from_view(view.frustum) * glm::dmat4{view.view_from_enu};
 }
 
@@ -273,14 +376,14 @@ void Renderer::Impl::draw_sky(std::size_t channel) {
     const glm::dmat4 clip = clip_from_enu(channel);
     // Discs are prepared for one screen at a time: rigs of like screens pay for it once a frame.
     if (discs_screen != screen) prepare_discs(screen);
-    targets[channel].bind();
     gl::set_blend(gl::Blend::kReplace);
     draw_dome(channel, clip);
     gl::set_blend(gl::Blend::kAdd);
     if (frame.light().milky_way.map != nullptr)
-        milky_way.draw(frame.milky_way(), channels[channel], screen, clip, shown_clouds());
+        milky_way.draw(frame.milky_way(), drawn(channel), screen, clip, shown_from_clip(channel),
+                       shown_clouds());
     if (plan.needs(Pass::kStars))
-        stars.draw(channels[channel], scene.views[channel], tone32(channel), shown_clouds());
+        stars.draw(drawn(channel), pictures.view(channel), tone32(channel), shown_clouds());
     if (plan.needs(Pass::kCorona)) corona.draw(glm::mat4{clip});
 }
 
@@ -296,63 +399,81 @@ void Renderer::Impl::draw_wet(std::size_t channel, const DeferredInput& input) {
         wet = std::make_unique<WetPass>();
         wet->prepare(scene, frame.light());
     }
-    wet->draw(channels[channel], scene.views[channel], tone32(channel), input);
+    wet->draw(drawn(channel), pictures.view(channel), tone32(channel), input);
 }
 
 void Renderer::draw(std::size_t channel) {
     Impl& m = *impl_;
     if (!m.shows(channel)) return;
-    const glm::mat4 clip{m.clip_from_enu(channel)};
-    m.draw_sky(channel);
-    if (m.report.plan.needs(Pass::kMoonGlare)) m.moon_glare.draw(clip);
-    m.draw_discs(channel);
-    if (m.report.plan.needs(Pass::kPrecipitation))
-        m.precipitation.draw(m.scene.views[channel], m.tone32(channel));
+    m.begin(channel, m.channels[channel].drawing == WarpDrawing::kResampled);
+    if (m.shows_pattern(channel))
+        m.draw_pattern(channel);
+    else
+        m.draw_world(channel);
+    m.finish(channel);
+}
+
+std::uint64_t Renderer::gl_errors() {
+    return impl_->log.errors();
+}
+
+void Renderer::cross_out(std::size_t channel) {
+    impl_->pictures.cross_out(channel);
+    gl::finish();
+}
+
+void Renderer::Impl::draw_world(std::size_t channel) {
+    const glm::mat4 clip{clip_from_enu(channel)};
+    draw_sky(channel);
+    if (report.plan.needs(Pass::kMoonGlare)) moon_glare.draw(clip);
+    draw_discs(channel);
+    if (report.plan.needs(Pass::kPrecipitation)) precipitation.draw(pictures.view(channel), tone32(channel));
     gl::set_blend(gl::Blend::kAdd);
     // Over the Moon too, when it stands before the Sun.
-    if (m.report.plan.needs(Pass::kSunGlare)) m.sun_glare.draw_around(clip);
-    gl::finish();
+    if (report.plan.needs(Pass::kSunGlare)) sun_glare.draw_around(clip);
 }
 
 void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
     Impl& m = *impl_;
-    if (!(input.far_m > 0.0)) {
+    if (!m.shows(channel)) return;
+    if (!(input.far_m > 0.0) || m.shows_pattern(channel)) {
         draw(channel);
         return;
     }
-    if (!m.shows(channel)) return;
     if (!m.deferred) {
         m.deferred = std::make_unique<DeferredPass>();
+        m.frame.serve_things();
+        m.prepare_clouds();
         m.refresh_deferred();
     }
+    m.begin(channel, true);
     m.draw_sky(channel);
     m.draw_discs(channel);
     gl::set_blend(gl::Blend::kReplace);
-    m.deferred->draw(m.scene.views[channel], input, m.tone32(channel));
+    m.deferred->draw(m.pictures.view(channel), input, m.tone32(channel));
     gl::set_blend(gl::Blend::kCoverage);
     if (m.report.plan.needs(Pass::kWetThings)) m.draw_wet(channel, input);
     if (m.report.plan.needs(Pass::kPrecipitation)) {
-        m.precipitation.draw_before(m.scene.views[channel], m.tone32(channel), input);
+        m.precipitation.draw_before(m.pictures.view(channel), m.tone32(channel), input);
     }
     // Glare is in the eye: before things too.
     const glm::mat4 clip{m.clip_from_enu(channel)};
     gl::set_blend(gl::Blend::kAdd);
     if (m.report.plan.needs(Pass::kMoonGlare)) m.moon_glare.draw_around(clip);
     if (m.report.plan.needs(Pass::kSunGlare)) m.sun_glare.draw_around(clip);
-    gl::finish();
+    m.finish(channel);
 }
 
 unsigned Renderer::texture(std::size_t channel) const noexcept {
-    return channel < impl_->targets.size() ? impl_->targets[channel].texture() : 0U;
+    return impl_->pictures.texture(channel);
 }
 
 void Renderer::read_back(std::size_t channel, std::span<std::byte> rgba) {
-    if (channel < impl_->targets.size()) impl_->targets[channel].read_rgba8(rgba);
+    impl_->pictures.read_back(channel, rgba);
 }
 
 void Renderer::read_luminance(std::size_t channel, std::span<float> rgb_cd_m2) {
-    if (channel >= impl_->targets.size()) return;
-    impl_->targets[channel].read_rgb32f(rgb_cd_m2);
+    impl_->pictures.read_light(channel, rgb_cd_m2);
     const auto unit_cd_m2 = static_cast<float>(std::exp2(-impl_->frame.exposure_exponent()));
     for (float& value : rgb_cd_m2)
         value *= unit_cd_m2;
@@ -371,7 +492,11 @@ glm::dvec3 Renderer::reference_colour(const glm::dvec3& direction_enu, double di
     const shaders64::ToneParameters& tone = impl_->frame.tone();
     const DeferredAir* air = impl_->frame.air_between();
     if (air == nullptr) return shaders64::shown(rgb_cd_m2, tone);
-    return shaders64::shown(air->under_air(rgb_cd_m2, direction_enu, distance_m), tone);
+    const glm::dvec3 lit_cd_m2 =
+        rgb_cd_m2 * impl_->frame.ground_shadow().on_thing(direction_enu * distance_m);
+    const glm::dvec3 seen_cd_m2 = air->under_air(lit_cd_m2, direction_enu, distance_m);
+    return shaders64::shown(impl_->frame.clouds().before_thing(*air, seen_cd_m2, direction_enu, distance_m),
+                            tone);
 }
 
 }  // namespace skyig::render

@@ -37,8 +37,9 @@ struct FrameReport {
 /// A frame is: prepare(scene), then draw(i) and, if wanted, read_back(i) for each channel.
 class Renderer {
   public:
-    /// \throws std::runtime_error with the GL text when a program or a framebuffer cannot be made, or when
-    /// there are no channels or more than kMaxChannels.
+    /// \throws std::runtime_error with the GL text when a program cannot be made or no channel's framebuffer
+    /// (where only some cannot, draw() of those throws), or when there are no channels or more than
+    /// kMaxChannels.
     /// \param target  what the pixels hold; the adaptation is that of eyes before `display` for all
     Renderer(std::vector<Channel> channels, const DisplaySettings& display, const Quality& quality = {},
              Target target = Target::kDisplay);
@@ -48,6 +49,9 @@ class Renderer {
 
     /// From the next frame on the scene's weather has clouds.
     void draw_clouds(Clouds clouds);
+
+    /// What frames leave out from the next one on. \see render::thinnable()
+    void thin(Thinned thinned) noexcept;
 
     /// The eyes' state after the last frame; what a renderer made after a reset of the device goes on from.
     [[nodiscard]] const eye::Adaptation& adaptation() const noexcept;
@@ -59,19 +63,33 @@ class Renderer {
     /// builds all tables and may throw std::bad_alloc; later ones do not throw.
     const FrameReport& prepare(const Scene& scene);
 
-    /// Draws one channel of the prepared frame and returns when the pixels are finished.
+    /// Draws one channel of the prepared frame, or the test pattern that its view asks for, with its texts;
+    /// returns when the pixels are finished. Patterns and texts are for displays: targets of luminance show
+    /// none.
+    /// \throws std::runtime_error, std::bad_alloc when what a view needs for the first time cannot be made:
+    /// its picture if that failed in the constructor, a mirrored view's canvas, the pass of patterns or
+    /// texts. All else of the renderer stays good, and the next call tries again.
     void draw(std::size_t channel);
 
-    /// The same with another renderer's picture of that channel, under this frame's air and tone curve. The
+    /// As in the report, and of what was drawn since: errors in a channel's draw() are those of its picture.
+    [[nodiscard]] std::uint64_t gl_errors();
+
+    /// Makes a channel's picture the one that says that it could not be drawn: a red cross. Needs no program
+    /// and nothing of the frame.
+    void cross_out(std::size_t channel);
+
+    /// The same with another renderer's picture of that channel, under this frame's air and tone curve; where
+    /// the channel is warped, of its flat picture, render_scale times its size, which is resampled. The
     /// first call allocates and builds the table of the air between (some 40 ms), from then on prepare()
     /// keeps it; it may throw like the constructor. Ridges stand where a straight ray sees them.
     void draw_scene(std::size_t channel, const DeferredInput& input);
 
     /// The GL name of a channel's picture, its bottom row first; complete after draw(). 0 for a channel that
-    /// is not there.
+    /// is not there or has no picture.
     [[nodiscard]] unsigned texture(std::size_t channel) const noexcept;
 
-    /// Copies a channel's pixels: RGBA, 8 bits, top row first, width * height * 4 bytes.
+    /// Copies a channel's pixels: RGBA, 8 bits, top row first, width * height * 4 bytes. Red if the channel
+    /// has no picture.
     void read_back(std::size_t channel, std::span<std::byte> rgba);
 
     /// Copies the light of a channel's pixels: linear Rec.709, cd/m2, top row first, width * height * 3

@@ -12,6 +12,7 @@
 
 #include "render/channel.h"
 #include "render/night_settings.h"
+#include "render/overlay/overlay.h"
 #include "render/sky_settings.h"
 #include "render/weather.h"
 
@@ -165,6 +166,9 @@ struct Scene {
     SkySettings sky;
     /// What shines in the dark one.
     NightSettings night;
+
+    /// Texts over the pictures of the views that show them.
+    Overlay overlay;
 
     std::array<ChannelView, kMaxChannels> views{};
     std::size_t view_count = 0;

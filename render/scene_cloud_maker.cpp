@@ -60,6 +60,18 @@ void JoinedClouds::march(std::span<const cloud::CloudRay> rays, const cloud::Clo
     }
 }
 
+void JoinedClouds::shadow(const cloud::CloudBeam& beam, float grain_m, std::span<const glm::vec2> ground_m,
+                          std::span<float> passed) const noexcept {
+    one_->shadow(beam, grain_m, ground_m, passed);
+    std::array<float, kRays> others;
+    for (std::size_t first = 0; first < ground_m.size(); first += kRays) {
+        const std::size_t count = std::min(kRays, ground_m.size() - first);
+        other_->shadow(beam, grain_m, ground_m.subspan(first, count), {others.data(), count});
+        for (std::size_t i = 0; i < count; ++i)
+            passed[first + i] *= others[i];
+    }
+}
+
 // The one that had the layer before, else one that is free, if possible without another layer's clouds in it.
 // At most as many are asked for as there are.
 SceneCloudMaker::Impostors& SceneCloudMaker::impostors_of(const CloudLayer& layer) {

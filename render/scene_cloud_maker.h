@@ -25,6 +25,8 @@ class JoinedClouds final : public cloud::CloudSource {
 
     void march(std::span<const cloud::CloudRay> rays, const cloud::CloudRange& range, float ray_rad,
                std::span<cloud::CloudSample> out) const noexcept override;
+    void shadow(const cloud::CloudBeam& beam, float grain_m, std::span<const glm::vec2> ground_m,
+                std::span<float> passed) const noexcept override;
 
   private:
     const cloud::CloudSource* one_ = nullptr;

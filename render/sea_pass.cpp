@@ -4,8 +4,8 @@
 
 namespace skyig::render {
 
-SeaPass::SeaPass(std::size_t screens)
-    : program_("sky/sea.vert", "sky/sea.frag"),
+SeaPass::SeaPass(std::size_t screens, gl::Placement placement)
+    : program_("sky/sea.vert", "sky/sea.frag", placement),
       tone_(program_, true),
       clip_(program_.uniform("u_clip_from_mesh")),
       enu_(program_.uniform("u_enu_from_mesh")),
@@ -20,20 +20,26 @@ SeaPass::SeaPass(std::size_t screens)
       phases_(program_.uniform("u_wave_phase")),
       shapes_(program_.uniform("u_wave_shape")) {
     for (std::size_t i = 0; i < screens; ++i)
-        meshes_.emplace_back(std::initializer_list<int>{3, 3, 3, 3, 3, 3, 3, 3, 3}, SeaMesh::kMaxVertices);
+        meshes_.emplace_back(std::initializer_list<int>{3, 3, 3, 3, 3, 3, 3, 3, 3}, SeaMesh::kMaxVertices,
+                             placement == gl::Placement::kWarped);
 }
 
-void SeaPass::prepare(const SkyFrame& frame, bool dither) {
+void SeaPass::prepare(const SkyFrame& frame, bool dither, double longest_edge_rad) {
+    const bool triangles = triangles_revision_ != frame.triangles_revision() ||
+                           longest_edge_rad_ != longest_edge_rad || rows_ != frame.sea_rows();
     for (std::size_t screen = 0; screen < meshes_.size(); ++screen) {
-        if (triangles_revision_ != frame.triangles_revision())
-            meshes_[screen].set_indices(frame.dome().indices());
-        if (vertices_revision_ == frame.sea_revision()) continue;
-        const auto vertices = frame.sea().vertices(screen);
-        meshes_[screen].update(
-            {reinterpret_cast<const float*>(vertices.data()), vertices.size_bytes() / sizeof(float)});
+        const auto rows = frame.sea().vertices(screen);
+        const std::span<const float> vertices{reinterpret_cast<const float*>(rows.data()),
+                                              rows.size_bytes() / sizeof(float)};
+        if (triangles)
+            meshes_[screen].set_triangles(frame.dome().indices(), vertices, longest_edge_rad);
+        else if (vertices_revision_ != frame.sea_revision())
+            meshes_[screen].set_vertices(vertices);
     }
     vertices_revision_ = frame.sea_revision();
     triangles_revision_ = frame.triangles_revision();
+    longest_edge_rad_ = longest_edge_rad;
+    rows_ = frame.sea_rows();
     const SeaShading& shading = frame.sea_shading();
     program_.set(enu_, glm::mat4{frame.enu_from_mesh()});
     program_.set(share_, static_cast<float>(frame.dome().share()));
@@ -59,7 +65,7 @@ void SeaPass::draw(const Channel& channel, std::size_t screen, const shaders32::
     program_.set(clip_, glm::mat4{clip_from_mesh});
     program_.set(half_size_, 0.5F * glm::vec2{channel.width_px, channel.height_px});
     for (const IndexRange& range : ranges)
-        meshes_[screen].draw_triangles(range.first, range.count);
+        meshes_[screen].draw(range);
 }
 
 }  // namespace skyig::render

@@ -60,7 +60,11 @@ ClippedLight clipped_light(const std::array<double, eye::kProbeCount>& probes_cd
 }
 
 // What a target of luminance asks of the dome: the finest there is.
-constexpr Quality kFinest{.error_codes = 0.0, .forced = {}};
+constexpr Quality kFinest{.error_codes = 0.0, .forced = {}, .thinned = {}};
+
+// What a thinned frame follows of the cloud map, and by how much larger steps.
+constexpr int kThinnedRefresh = 3;
+constexpr float kThinnedMotion = 4.0F;
 
 }  // namespace
 
@@ -119,13 +123,27 @@ void SkyFrame::refresh_clouds(const Scene& scene, double pixel_rad) {
     const bool going = clouds_.shown() && !tables_.jumped() && !clouds_.map().is_clear();
     if ((!plan_.needs(Pass::kClouds) && !going) || made_clouds_.maker == nullptr) {
         clouds_.stop();
+        ground_shadow_.stop();
+        plan_cloud_shadows(plan_, ground_shadow_.map(), false);
         return;
     }
     air_between(scene);
     if (made_clouds_.light != nullptr) made_clouds_.light(scene, plan_, tables_, light_, cloud_light_);
-    clouds_.follow(*made_clouds_.maker, scene, cloud_light_, light_, tables_.jumped(), size,
-                   quality_.cloud_tiles_a_frame);
+    const int tiles = plan_.thins(Thin::kCloudRefresh)
+                          ? std::max(quality_.cloud_tiles_a_frame / kThinnedRefresh, 1)
+                          : quality_.cloud_tiles_a_frame;
+    clouds_.follow(*made_clouds_.maker, scene, cloud_light_, light_, tables_.jumped(), size, tiles);
+    clouds_.step_by(plan_.thins(Thin::kCloudMotion) ? kThinnedMotion : 1.0F);
+    ground_shadow_.update(*made_clouds_.maker, {scene, scene.eye, cloud_light_}, tables_.air(), light_,
+                          tables_.jumped());
+    clouds_.shade_ground(&ground_shadow_);
+    plan_cloud_shadows(plan_, ground_shadow_.map(), ground_shadow_.shown());
     plan_clouds(plan_, scene, size, cloud::NearMap::kSize, clouds_.map().near_map() != nullptr);
+}
+
+void SkyFrame::serve_things() noexcept {
+    clouds_.serve_things();
+    tone_clouds();
 }
 
 void SkyFrame::tone_clouds() noexcept {
@@ -293,8 +311,10 @@ void SkyFrame::refresh_dome(double pixel_rad) {
     wanted.veil = veil_.bends_revision();
     const bool at_once = shaded_.tables == 0 || tables_.jumped();
     // A fade that runs is not begun anew for nodes that only could stand better.
-    const bool lay = at_once || !still_serves(dome_.layout(), wanted) ||
-                     (dome_.share() >= 1.0 && !still_fits(dome_.layout(), wanted));
+    const bool thinned = plan_.thins(Thin::kDome);
+    const bool lay =
+        at_once || !still_serves(dome_.layout(), wanted) ||
+        (dome_.share() >= 1.0 && (thinned != dome_thinned_ || !still_fits(dome_.layout(), wanted)));
     const bool replaced = lay || shaded_.tables != tables_.revision();
     const bool turned = std::abs(std::remainder(wanted.second_azimuth_rad - shaded_.moon_from_sun_rad,
                                                 2.0 * std::numbers::pi)) > static_cast<double>(kLightStep);
@@ -309,9 +329,11 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         std::abs(adaptation - shaded_.adaptation_cd_m2) > kAdaptationStep * shaded_.adaptation_cd_m2 ||
         exposure_exponent_ != shaded_.exposure_exponent;
     const bool of_light = target_ != Target::kDisplay;
-    const Quality& quality = of_light ? kFinest : quality_;
+    Quality quality = of_light ? kFinest : quality_;
+    if (thinned) quality.error_codes *= kThinnedDome;
     mesh_azimuth_rad_ = wanted.azimuth_rad;
     if (lay) {
+        dome_thinned_ = thinned;
         bend_.measure(light_, display_tones_, mesh_azimuth_rad_, pixel_rad);
         dome_.lay_out(wanted, bend_, plan_dome(bend_, at_once ? DomeBend::kLeast : dome_.size(), quality));
     }

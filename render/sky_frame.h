@@ -14,6 +14,7 @@
 #include "render/dome.h"
 #include "render/eye/adaptation.h"
 #include "render/glare.h"
+#include "render/ground_shadow.h"
 #include "render/light_tables.h"
 #include "render/milky_way.h"
 #include "render/plan.h"
@@ -50,6 +51,9 @@ class SkyFrame {
 
     /// From the next frame on.
     void draw_clouds(Clouds clouds) noexcept { made_clouds_ = std::move(clouds); }
+
+    /// What frames leave out from the next one on.
+    void thin(Thinned thinned) noexcept { quality_.thinned = thinned; }
 
     /// \param pixel_rad  angle of the finest pixel of the rig: edges are softened over it \param
     /// smallest_pixel_sr  of the rig, where stars show best. Allocates nothing in steady state. The first
@@ -88,6 +92,7 @@ class SkyFrame {
         return moon_glares_[screen];
     }
     [[nodiscard]] const CloudFrame& clouds() const noexcept { return clouds_; }
+    [[nodiscard]] const GroundShadow& ground_shadow() const noexcept { return ground_shadow_; }
     /// What is seen of light that stands behind the clouds, in a direction that a view sees. The same without
     /// clouds.
     [[nodiscard]] glm::dvec3 through_clouds(const glm::dvec3& behind_cd_m2,
@@ -98,6 +103,8 @@ class SkyFrame {
     [[nodiscard]] const DeferredAir* air_between() const noexcept {
         return air_between_ ? &*air_between_ : nullptr;
     }
+    /// From this frame on things stand among the clouds.
+    void serve_things() noexcept;
     [[nodiscard]] Dome& dome() noexcept { return dome_; }
     [[nodiscard]] const Dome& dome() const noexcept { return dome_; }
     [[nodiscard]] MilkyWay& milky_way() noexcept { return milky_way_; }
@@ -171,6 +178,7 @@ class SkyFrame {
     cloud::CloudLight cloud_light_;
     std::optional<DeferredAir> air_between_;
     bool air_between_fresh_ = false;
+    GroundShadow ground_shadow_;
     CloudFrame clouds_;
     MilkyWay milky_way_;
     bool milky_way_shown_ = false;
@@ -186,6 +194,7 @@ class SkyFrame {
     std::vector<ClippedLight> clipped_;
     double mesh_azimuth_rad_ = 0.0;
     double dome_error_codes_ = 0.0;
+    bool dome_thinned_ = false;
     std::uint64_t triangles_revision_ = 0;
     std::uint64_t vertices_revision_ = 0;
     sky::SeaWaves waves_;

@@ -157,9 +157,7 @@ glm::vec3 SkyLight::veiled(const glm::vec3& clear_cd_m2, double straight_rad, do
             shaders64::veil_air_passes(-std::max(eye_height_m, 0.0), end_m(straight_rad, true), front_air);
         behind *= 1.0 + shown * (veil->ground_share() - 1.0);
     }
-    const double veil_m = shaders64::veil_distance_m(sum);
-    const glm::dvec3 passes = shaders64::veil_air_passes(
-        shaders64::veil_rise_m(veil_m, {sine, veil->eye_radius_m()}), veil_m, front_air);
+    const glm::dvec3 passes = shaders64::veil_air_passes_before(sum, {sine, veil->eye_radius_m()}, front_air);
     glm::dvec3 endless{clear_cd_m2};
     if (!ground) {
         // A ray that goes down first meets all of it.

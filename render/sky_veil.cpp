@@ -9,14 +9,12 @@
 
 namespace skyig::render {
 
-namespace {
-
-// Wavelengths of the model next to those of linear red, green and blue: 621, 558, 474 nm.
-constexpr std::array<std::size_t, 3> kRgbWavelengths{11, 8, 4};
-
-glm::dvec3 rgb_of(const sky::Spectrum& spectrum) {
+glm::dvec3 rgb_of(const sky::Spectrum& spectrum) noexcept {
+    constexpr std::array<std::size_t, 3> kRgbWavelengths{11, 8, 4};
     return {spectrum[kRgbWavelengths[0]], spectrum[kRgbWavelengths[1]], spectrum[kRgbWavelengths[2]]};
 }
+
+namespace {
 
 // Mean of the sky seen from the eye, weighed by the sine of the elevation.
 glm::dvec3 mean_sky_cd_m2(const LitAir& lit) {

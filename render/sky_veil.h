@@ -15,6 +15,10 @@ namespace skyig::render {
 [[nodiscard]] fog::VeilSources veil_sources(const Scene& scene, const sky::AirTables& air,
                                             const SkyLight& light, double top_m) noexcept;
 
+/// What a property of the air or the ground is at the wavelengths next to those of linear red, green and
+/// blue: 621, 558, 474 nm.
+[[nodiscard]] glm::dvec3 rgb_of(const sky::Spectrum& spectrum) noexcept;
+
 /// The air as seen from that height.
 [[nodiscard]] shaders64::VeilAir front_air(const sky::AirModel& model, double eye_height_m) noexcept;
 

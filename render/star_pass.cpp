@@ -4,8 +4,8 @@
 
 namespace skyig::render {
 
-StarPass::StarPass()
-    : program_("night/star.vert", "night/star.frag"),
+StarPass::StarPass(gl::Placement placement)
+    : program_("night/star.vert", "night/star.frag", placement),
       mesh_({3, 3, 3}, field_.capacity()),
       tone_(program_, true),
       fetch_(program_),

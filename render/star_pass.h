@@ -18,7 +18,7 @@ namespace skyig::render {
 class StarPass {
   public:
     /// \throws std::runtime_error when the program cannot be made
-    StarPass();
+    explicit StarPass(gl::Placement placement);
 
     /// Once a frame whose plan needs the stars.
     void prepare(const Scene& scene, const SkyFrame& frame, double pixel_rad);

@@ -24,7 +24,7 @@ std::int64_t SystemClock::utc_ns() const noexcept {
     return read_ns(CLOCK_REALTIME);
 }
 
-std::int64_t process_cpu_ns() noexcept {
+std::int64_t SystemClock::processor_ns() const noexcept {
     return read_ns(CLOCK_PROCESS_CPUTIME_ID);
 }
 

@@ -20,6 +20,9 @@ class Clock {
     [[nodiscard]] virtual std::int64_t monotonic_ns() const noexcept = 0;
     /// UTC in nanoseconds since 1970-01-01T00:00:00Z, leap seconds not counted (POSIX).
     [[nodiscard]] virtual std::int64_t utc_ns() const noexcept = 0;
+    /// Processor time that all threads of the program have taken so far, nanoseconds; 0 where nobody
+    /// measures.
+    [[nodiscard]] virtual std::int64_t processor_ns() const noexcept { return 0; }
     /// Returns at or after the given instant of monotonic_ns(), at once if it has passed; a signal does not
     /// cut it short.
     virtual void sleep_until_ns(std::int64_t monotonic_deadline_ns) = 0;
@@ -30,13 +33,11 @@ class SystemClock final : public Clock {
   public:
     [[nodiscard]] std::int64_t monotonic_ns() const noexcept override;
     [[nodiscard]] std::int64_t utc_ns() const noexcept override;
+    [[nodiscard]] std::int64_t processor_ns() const noexcept override;
     void sleep_until_ns(std::int64_t monotonic_deadline_ns) override;
 };
 
-/// Processor time that all threads of this program have taken so far, nanoseconds.
-[[nodiscard]] std::int64_t process_cpu_ns() noexcept;
-
-/// Stands still unless moved; sleeping moves it to the deadline.
+/// Stands still unless moved; sleeping moves it to the deadline. Processor time is what it is told.
 class ManualClock final : public Clock {
   public:
     explicit ManualClock(std::int64_t monotonic_start_ns = 0, std::int64_t utc_start_ns = 0) noexcept
@@ -44,14 +45,17 @@ class ManualClock final : public Clock {
 
     [[nodiscard]] std::int64_t monotonic_ns() const noexcept override { return monotonic_ns_; }
     [[nodiscard]] std::int64_t utc_ns() const noexcept override { return monotonic_ns_ + utc_offset_ns_; }
+    [[nodiscard]] std::int64_t processor_ns() const noexcept override { return processor_ns_; }
     void sleep_until_ns(std::int64_t monotonic_deadline_ns) override;
 
+    void spend_ns(std::int64_t step_ns) noexcept { processor_ns_ += step_ns; }
     void advance_ns(std::int64_t step_ns) noexcept { monotonic_ns_ += step_ns; }
     void advance_s(double step_s) noexcept { advance_ns(static_cast<std::int64_t>(step_s * 1e9)); }
 
   private:
     std::int64_t monotonic_ns_;
     std::int64_t utc_offset_ns_;
+    std::int64_t processor_ns_ = 0;
 };
 
 }  // namespace skyig::server

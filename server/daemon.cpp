@@ -111,7 +111,13 @@ class Outside {
             ManualClock& replay_clock, Log& log) {
         if (options.replay_path.empty()) {
             live_.emplace(config, log);
-            clock_pace_.emplace(wall, config.daemon.rate_hz);
+            const bool wanted = config.daemon.pacing == config::Pacing::kDisplay;
+            if (wanted && !options.headless) {
+                live_pace_ = std::make_unique<DisplayPace>(wall, config.daemon.rate_hz);
+            } else {
+                live_pace_ = std::make_unique<ClockPace>(wall, config.daemon.rate_hz);
+            }
+            if (wanted && options.headless) log.notice("without windows frames are paced by the clock");
         } else {
             replay_.emplace(options.replay_path, config);
             replay_wire_.emplace(*replay_);
@@ -132,7 +138,7 @@ class Outside {
     [[nodiscard]] Wire& wire() { return recording_wire_ ? *recording_wire_ : plain_wire(); }
     [[nodiscard]] Pace& pace() {
         if (replay_pace_) return *replay_pace_;
-        return *clock_pace_;
+        return *live_pace_;
     }
     [[nodiscard]] const Replay* replay() const noexcept { return replay_ ? &*replay_ : nullptr; }
     [[nodiscard]] const LiveWire* live() const noexcept { return live_ ? &*live_ : nullptr; }
@@ -150,7 +156,7 @@ class Outside {
     }
 
     std::optional<LiveWire> live_;
-    std::optional<ClockPace> clock_pace_;
+    std::unique_ptr<Pace> live_pace_;
     std::optional<Replay> replay_;
     std::optional<ReplayWire> replay_wire_;
     std::optional<ReplayPace> replay_pace_;
@@ -312,9 +318,9 @@ void run(const DaemonOptions& options, const config::Config& config,
                                          outside, clock, preview.get(), log);
     loop.warm_up();
     running = &loop;
-    const std::int64_t cpu_before_ns = process_cpu_ns();
+    const std::int64_t cpu_before_ns = clock.processor_ns();
     loop.run([&stop] { return stop.requested(); });
-    const std::int64_t cpu_ns = process_cpu_ns() - cpu_before_ns;
+    const std::int64_t cpu_ns = clock.processor_ns() - cpu_before_ns;
     if (images) images->finish();
     outside.finish();
     tell_ends(log, outside, painter.description());

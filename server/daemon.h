@@ -15,6 +15,9 @@ struct DaemonOptions {
     bool check = false;
     /// No windows, whatever the settings say.
     bool headless = false;
+    /// Test pattern that all channels show at first, one of config::kPatternNames; empty: as the settings
+    /// say.
+    std::string pattern;
     /// Frames to draw before a clean end; 0 = until a signal comes.
     std::uint64_t frames = 0;
     /// Directory for the channels' images; empty = none.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "server/endpoint_format.h"
@@ -44,7 +45,15 @@ FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, 
       scenes_(ephemeris_model(config), std::move(orientation), sky_settings(config.sky),
               ground_settings(config.ground), night_settings(config.night),
               weather::weather_settings(config.weather)),
-      times_(config.channels.size()) {}
+      overlay_(config),
+      times_(config.channels.size()),
+      lock_step_(config.daemon),
+      delays_(config.channels.size()),
+      on_processor_(parts.painter.on_processor()) {
+    if (!config.overload.order.empty() && !parts.pace.replays())
+        overload_.emplace(config.overload, parts.pace.period_s());
+    parts.world.look_ahead(config.daemon.display_delay_s());
+}
 
 void FrameLoop::warm_up() {
     parts_.painter.prepare(scenes_.build(parts_.world, 0));
@@ -67,44 +76,74 @@ bool FrameLoop::run_frame() {
     const std::int64_t utc_ns = parts_.clock.utc_ns();
     ++frame_number_;
 
+    thin(slot);
     answer_host(slot, utc_ns);
     const std::uint64_t arrivals_before = inbox_.arrivals();
-    parts_.wire.drain(inbox_);
-    parts_.world.advance(static_cast<double>(slot.slots) * parts_.pace.period_s());
-    const render::Scene scene = scenes_.build(parts_.world, frame_number_);
     status::FrameParts times;
     times.start_ns = start_ns;
+    const std::int64_t processor_before_ns = parts_.clock.processor_ns();
     Stopwatch stopwatch(parts_.clock, start_ns);
-    times.input_ns = stopwatch.lap_ns();
+    take_input(slot, times, stopwatch);
+    render::Scene scene = scenes_.build(parts_.world, frame_number_);
+    overlay_.write(parts_.world, slot.slots, scene);
+    times.input_ns += stopwatch.lap_ns();
     times_.input().add(times.input_ns);
     draw(scene, stopwatch, times);
     const bool wanted = parts_.painter.present();
     if (!wanted) parts_.log.notice("a window was closed: the daemon ends");
-    if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images();
-    if (parts_.hashes != nullptr) hash_images();
-    if (parts_.preview != nullptr) {
-        parts_.preview->offer(parts_.clock.monotonic_ns(),
-                              [this](std::size_t channel, std::span<std::byte> rgba) {
-                                  parts_.painter.read_back(channel, rgba);
-                              });
-    }
-
+    times.display_ns = stopwatch.lap_ns();
+    if (parts_.wire.live()) delays_.shown(parts_.clock.utc_ns(), inbox_.frame_arrivals());
+    hand_out();
     times.output_ns = stopwatch.lap_ns();
+    if (on_processor_) times.processor_ns = parts_.clock.processor_ns() - processor_before_ns;
     last_end_ns_ = start_ns + times.duration_ns();
     times_.frame().add(times.duration_ns());
-    record_.add(times, slot.late, parts_.pace.period_s());
     if (parts_.table != nullptr) {
         parts_.table->add({frame_number_, utc_ns, slot.slots, slot.late, inbox_.arrivals() - arrivals_before},
                           times_);
     }
-    watch(slot);
+    close_frame(slot, times);
     if (parts_.status != nullptr) publish_status(scene);
     return wanted;
 }
 
+void FrameLoop::thin(const FramePacer::Slot& slot) {
+    const render::Thinned wanted = overload_ ? overload_->thinned() : render::Thinned(slot.thinned);
+    if (wanted != thinned_) parts_.painter.thin(wanted);
+    thinned_ = wanted;
+}
+
+void FrameLoop::take_input(const FramePacer::Slot& slot, status::FrameParts& times, Stopwatch& stopwatch) {
+    inbox_.begin_frame();
+    parts_.wire.drain(inbox_);
+    times.input_ns = stopwatch.lap_ns();
+    lock_step_.await(parts_.clock, parts_.wire, inbox_, parts_.world);
+    times.host_ns = stopwatch.lap_ns();
+    parts_.world.advance(static_cast<double>(slot.slots) * parts_.pace.period_s());
+}
+
+void FrameLoop::hand_out() {
+    if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images();
+    if (parts_.hashes != nullptr) hash_images();
+    if (parts_.preview == nullptr) return;
+    parts_.preview->offer(
+        parts_.clock.monotonic_ns(),
+        [this](std::size_t channel, std::span<std::byte> rgba) { parts_.painter.read_back(channel, rgba); });
+}
+
+void FrameLoop::close_frame(const FramePacer::Slot& slot, const status::FrameParts& times) {
+    record_.add(times, slot.late, parts_.pace.period_s());
+    if (overload_) {
+        const double passed_s = static_cast<double>(slot.slots) * parts_.pace.period_s();
+        tell_thinning(overload_->add(static_cast<double>(times.work_ns()) * 1e-9, passed_s,
+                                     parts_.painter.thinnable()));
+    }
+    watch(slot);
+}
+
 void FrameLoop::answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns) {
     const std::span<const std::byte> message = answers_.open_frame(parts_.world, slot.start_ns, slot.late);
-    parts_.wire.open_frame({frame_number_, slot.slots, utc_ns}, message);
+    parts_.wire.open_frame({frame_number_, slot.slots, thinned_.to_ullong(), utc_ns}, message);
     const auto destination = answers_.destination(parts_.world.control_source(), parts_.world.control_link());
     if (!destination) return;
     if (parts_.wire.send(parts_.world.control_source(), *destination, message)) {
@@ -117,7 +156,11 @@ void FrameLoop::answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns) {
 }
 
 void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::FrameParts& times) {
+    const bool live = parts_.wire.live();
+    std::int64_t first_utc_ns = 0;
+    std::int64_t last_utc_ns = 0;
     parts_.painter.prepare(scene);
+    times.rebuilt = parts_.painter.rebuilt();
     tell_resets();
     times.shared_ns = stopwatch.lap_ns();
     times_.shared().add(times.shared_ns);
@@ -126,6 +169,43 @@ void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::F
         const std::int64_t took_ns = stopwatch.lap_ns();
         times_.channel(channel).add(took_ns);
         times.channels_ns += took_ns;
+        if (!live) continue;
+        last_utc_ns = parts_.clock.utc_ns();
+        if (channel == 0) first_utc_ns = last_utc_ns;
+        delays_.finished(channel, last_utc_ns, inbox_.frame_arrivals());
+    }
+    if (live) tell_host_of_pictures(first_utc_ns, last_utc_ns);
+    tell_channels();
+}
+
+/// For whoever measures delays from the other end.
+void FrameLoop::tell_host_of_pictures(std::int64_t first_utc_ns, std::int64_t last_utc_ns) {
+    const auto microseconds = [](std::int64_t duration_ns) {
+        return static_cast<std::uint32_t>(std::clamp<std::int64_t>(duration_ns / 1000, 0, UINT32_MAX));
+    };
+    for (const Arrivals::HostMessage& message : inbox_.frame_arrivals().host()) {
+        // What is lost is told by its absence.
+        (void)parts_.world.outbox().events.raise(world::Event::kFrameFinished, message.frame_number,
+                                                 microseconds(last_utc_ns - message.arrival_ns),
+                                                 microseconds(first_utc_ns - message.arrival_ns));
+    }
+}
+
+void FrameLoop::tell_channels() {
+    for (std::size_t channel = 0; channel < config_.channels.size(); ++channel) {
+        const status::ChannelHealth health = parts_.painter.health(channel);
+        if (health.failed == told_failed_[channel]) continue;
+        told_failed_[channel] = health.failed;
+        const std::string& name = config_.channels[channel].name;
+        if (health.failed) {
+            parts_.log.limited({"channel failed", channel}, kRepeatAfter_s, Severity::kWarning,
+                               "channel {} cannot be drawn: {}; it is crossed out in red and tried again",
+                               name, health.reason());
+        } else {
+            parts_.log.limited({"channel drawn", channel}, kRepeatAfter_s, Severity::kNotice,
+                               "channel {} is drawn again, after {} failures since the start", name,
+                               health.failures);
+        }
     }
 }
 
@@ -167,7 +247,23 @@ void FrameLoop::watch(const FramePacer::Slot& slot) {
     tell_late_frames();
     tell_dropped_datagrams();
     tell_what_is_drawn_otherwise();
+    gl_objects_ = parts_.painter.gl_objects();
     watched_ = {};
+}
+
+void FrameLoop::tell_thinning(Overload::Step step) {
+    if (step == Overload::Step::kNone) return;
+    const Overload::State& state = overload_->state();
+    const std::string_view what = config::kThinningNames[static_cast<std::size_t>(state.last_thing)];
+    if (step == Overload::Step::kThinned) {
+        parts_.log.limited("thinned", kRepeatAfter_s, Severity::kNotice,
+                           "leaves out {}: a frame takes {:.1f} of {:.1f} ms", what,
+                           state.last_load * parts_.pace.period_s() * 1e3, parts_.pace.period_s() * 1e3);
+    } else {
+        parts_.log.limited("returned", kRepeatAfter_s, Severity::kNotice,
+                           "{} is back: a frame takes {:.1f} of {:.1f} ms", what,
+                           state.last_load * parts_.pace.period_s() * 1e3, parts_.pace.period_s() * 1e3);
+    }
 }
 
 void FrameLoop::tell_late_frames() {

@@ -1,19 +1,25 @@
 // One frame after the other: answer the host, take what it has sent, move the world, draw, write pictures.
 #pragma once
 
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "config/config.h"
 #include "server/answers.h"
 #include "server/clock.h"
+#include "server/delays.h"
 #include "server/frame_hashes.h"
 #include "server/frame_table.h"
 #include "server/image_writer.h"
 #include "server/inbox.h"
+#include "server/lock_step.h"
 #include "server/log.h"
+#include "server/overlay_text.h"
+#include "server/overload.h"
 #include "server/pace.h"
 #include "server/painter.h"
 #include "server/preview.h"
@@ -76,10 +82,18 @@ class FrameLoop {
   private:
     class Stopwatch;
 
+    /// What the frame leaves out: as the recording has it, or as the last frames took their time.
+    void thin(const FramePacer::Slot& slot);
     void answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns);
+    void take_input(const FramePacer::Slot& slot, status::FrameParts& times, Stopwatch& stopwatch);
     void draw(const render::Scene& scene, Stopwatch& stopwatch, status::FrameParts& times);
+    void hand_out();
     void hand_out_images();
+    void tell_host_of_pictures(std::int64_t first_utc_ns, std::int64_t last_utc_ns);
+    void close_frame(const FramePacer::Slot& slot, const status::FrameParts& times);
+    void tell_thinning(Overload::Step step);
     void tell_resets();
+    void tell_channels();
     void hash_images();
     void watch(const FramePacer::Slot& slot);
     void tell_late_frames();
@@ -91,6 +105,7 @@ class FrameLoop {
     void take_stock(status::Snapshot& snapshot) const;
     void take_stock_of_sources(status::Snapshot& snapshot) const;
     void take_stock_of_world(status::Snapshot& snapshot) const;
+    void take_stock_of_pacing(status::Snapshot& snapshot) const;
 
     const config::Config& config_;
     FrameLoopParts parts_;
@@ -100,8 +115,16 @@ class FrameLoop {
     Answers answers_;
     Inbox inbox_;
     SceneBuilder scenes_;
+    OverlayText overlay_;
     FrameTimes times_;
     status::FrameRecord record_;
+    LockStep lock_step_;
+    Delays delays_;
+    /// Nothing where the settings want none, and in a replay.
+    std::optional<Overload> overload_;
+    render::Thinned thinned_;
+    bool on_processor_;
+    std::size_t gl_objects_ = 0;
 
     std::uint64_t frame_number_ = 0;
     std::uint64_t late_frames_ = 0;
@@ -119,6 +142,8 @@ class FrameLoop {
     };
     Watched watched_;
     std::vector<std::byte> read_back_;
+    /// Channels of which it has been said that they cannot be drawn.
+    std::bitset<config::kMaxChannels> told_failed_;
     /// What has been said of the date, until it is said anew.
     std::uint64_t told_resets_ = 0;
     bool told_clamped_ = false;

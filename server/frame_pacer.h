@@ -19,6 +19,8 @@ class FramePacer {
         std::uint64_t slots = 0;
         /// The work of the frame before ended after this frame's deadline.
         bool late = false;
+        /// Of a recording: what the frame left out, by the numbers of render::Thin.
+        std::uint64_t thinned = 0;
     };
 
     /// \param rate_hz  frames a second, greater than 0

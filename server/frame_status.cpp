@@ -30,6 +30,22 @@ status::Times times_of(const TimeHistogram& times) noexcept {
     return {times.quantile_ms(0.5), times.quantile_ms(0.95), times.largest_ms()};
 }
 
+status::Delay delay_of(const TimeHistogram& times) noexcept {
+    return {times.count(), times.quantile_ms(0.5), times.quantile_ms(0.99), times.largest_ms()};
+}
+
+std::string_view pace_name(config::Pacing pacing) noexcept {
+    switch (pacing) {
+        case config::Pacing::kDisplay:
+            return "display";
+        case config::Pacing::kHost:
+            return "host";
+        case config::Pacing::kClock:
+            break;
+    }
+    return "clock";
+}
+
 }  // namespace
 
 status::Facts FrameLoop::facts() const {
@@ -37,6 +53,9 @@ status::Facts FrameLoop::facts() const {
     facts.version = SKYIG_VERSION;
     facts.renderer = parts_.painter.description();
     facts.rate_hz = config_.daemon.rate_hz;
+    facts.pace = pace_name(config_.daemon.pacing);
+    for (const config::Thinning thinning : config_.overload.order)
+        facts.thinning_order.emplace_back(config::kThinningNames[static_cast<std::size_t>(thinning)]);
     for (const config::Channel& channel : config_.channels)
         facts.channels.push_back(channel.name);
     for (const world::SourceRule& rule : world::source_rules(config_))
@@ -51,6 +70,7 @@ status::Facts FrameLoop::facts() const {
 RunReport FrameLoop::report() const {
     status::Snapshot snapshot;
     take_stock(snapshot);
+    snapshot.gl_objects = parts_.painter.gl_objects();
     return status::make_report(facts(), snapshot);
 }
 
@@ -79,6 +99,8 @@ void FrameLoop::take_stock(status::Snapshot& snapshot) const {
     snapshot.frame = times_of(times_.frame());
     for (std::size_t i = 0; i < config_.channels.size(); ++i)
         snapshot.channels[i] = times_of(times_.channel(i));
+    for (std::size_t i = 0; i < config_.channels.size(); ++i)
+        snapshot.health[i] = parts_.painter.health(i);
     snapshot.pass_count = parts_.painter.passes(snapshot.passes);
     snapshot.start_of_frame_sent = start_of_frame_sent_;
     snapshot.start_of_frame_failed = start_of_frame_failed_;
@@ -90,8 +112,30 @@ void FrameLoop::take_stock(status::Snapshot& snapshot) const {
         snapshot.images_failed = images.failed;
         snapshot.image_frames_skipped = images.skipped;
     }
+    take_stock_of_pacing(snapshot);
     take_stock_of_world(snapshot);
     take_stock_of_sources(snapshot);
+}
+
+void FrameLoop::take_stock_of_pacing(status::Snapshot& snapshot) const {
+    for (std::size_t i = 0; i < config_.channels.size(); ++i)
+        snapshot.delays[i] = delay_of(delays_.channel(i));
+    snapshot.delay_shown = delay_of(delays_.shown());
+    snapshot.host_interval = delay_of(inbox_.host_timing().interval());
+    snapshot.host_jitter = delay_of(inbox_.host_timing().jitter());
+    snapshot.host_timeouts = lock_step_.timeouts();
+    snapshot.gl_objects = gl_objects_;
+    snapshot.thinning = {};
+    snapshot.thinning.thinned = thinned_.to_ullong();
+    if (!overload_) return;
+    const Overload::State& state = overload_->state();
+    snapshot.thinning.times_thinned = state.times_thinned;
+    snapshot.thinning.times_returned = state.times_returned;
+    snapshot.thinning.exhausted = state.exhausted;
+    snapshot.thinning.any_step = state.last_step != Overload::Step::kNone;
+    snapshot.thinning.last_thinned = state.last_step == Overload::Step::kThinned;
+    snapshot.thinning.last_thing = static_cast<std::size_t>(state.last_thing);
+    snapshot.thinning.last_load = state.last_load;
 }
 
 void FrameLoop::take_stock_of_world(status::Snapshot& snapshot) const {

@@ -1,10 +1,18 @@
 #include "server/from_config.h"
 
 #include <glm/glm.hpp>
+#include <memory>
+#include <utility>
+
+#include "render/warp/blend.h"
+#include "render/warp/warp.h"
 
 namespace skyig::server {
 
 static_assert(config::kMaxChannels == render::kMaxChannels);
+static_assert(static_cast<int>(config::WarpDrawing::kResampled) ==
+              static_cast<int>(render::WarpDrawing::kResampled));
+static_assert(config::kMaxTextScale == render::kMaxTextScale);
 
 ephemeris::UtcClockTime start_time(const config::Start& start, const Clock& clock) {
     constexpr std::int64_t kNsPerSecond = 1'000'000'000;
@@ -34,12 +42,37 @@ render::Screen screen(const config::Screen& settings) noexcept {
 
 }  // namespace
 
+namespace {
+
+std::shared_ptr<const render::warp::Warp> warp_of(const config::Channel& channel) {
+    if (!channel.warp) return nullptr;
+    render::warp::Mesh mesh{channel.warp->columns, channel.warp->rows, channel.warp->at_edges, {}};
+    mesh.picture.reserve(channel.warp->picture.size());
+    for (const auto& [right, up] : channel.warp->picture)
+        mesh.picture.emplace_back(right, up);
+    return std::make_shared<render::warp::Warp>(std::move(mesh), channel.width_px, channel.height_px);
+}
+
+std::shared_ptr<const render::warp::Blend> blend_of(const config::Channel& channel) {
+    if (!channel.blend) return nullptr;
+    return std::make_shared<render::warp::Blend>(render::warp::Blend{
+        channel.blend->width_px, channel.blend->height_px, channel.blend->weight, channel.blend->lift});
+}
+
+}  // namespace
+
 std::vector<render::Channel> render_channels(const config::Config& config) {
     std::vector<render::Channel> channels;
     channels.reserve(config.channels.size());
     for (const config::Channel& channel : config.channels) {
         channels.push_back({channel.name, channel.width_px, channel.height_px});
-        if (channel.display) channels.back().screen = screen(*channel.display);
+        render::Channel& made = channels.back();
+        if (channel.display) made.screen = screen(*channel.display);
+        made.warp = warp_of(channel);
+        made.drawing = static_cast<render::WarpDrawing>(channel.warp_drawing);
+        made.render_scale = channel.render_scale;
+        made.blend = blend_of(channel);
+        made.text_scale = channel.overlay.value_or(config.overlay).scale;
     }
     return channels;
 }
@@ -202,6 +235,28 @@ render::DisplaySettings display_settings(const config::Config& config) {
     settings.adapt_down_s = eye.adapt_down_s;
     settings.glare = eye.glare;
     return settings;
+}
+
+namespace {
+
+static_assert(config::kThinningNames.size() == render::kThinCount &&
+                  static_cast<int>(config::Thinning::kCloudRefresh) ==
+                      static_cast<int>(render::Thin::kCloudRefresh) &&
+                  static_cast<int>(config::Thinning::kCloudMotion) ==
+                      static_cast<int>(render::Thin::kCloudMotion) &&
+                  static_cast<int>(config::Thinning::kDome) == static_cast<int>(render::Thin::kDome) &&
+                  static_cast<int>(config::Thinning::kStars) == static_cast<int>(render::Thin::kStars) &&
+                  static_cast<int>(config::Thinning::kPrecipitation) ==
+                      static_cast<int>(render::Thin::kPrecipitation) &&
+                  static_cast<int>(config::Thinning::kWaves) == static_cast<int>(render::Thin::kWaves) &&
+                  static_cast<int>(config::Thinning::kGlare) == static_cast<int>(render::Thin::kGlare) &&
+                  static_cast<int>(config::Thinning::kMilkyWay) == static_cast<int>(render::Thin::kMilkyWay),
+              "one order of what can be left out in settings and plan");
+
+}  // namespace
+
+render::Thin thin_of(config::Thinning thinning) noexcept {
+    return static_cast<render::Thin>(thinning);
 }
 
 }  // namespace skyig::server

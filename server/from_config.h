@@ -42,4 +42,6 @@ namespace skyig::server {
 
 [[nodiscard]] render::Quality quality(const config::Config& config);
 
+[[nodiscard]] render::Thin thin_of(config::Thinning thinning) noexcept;
+
 }  // namespace skyig::server

@@ -5,10 +5,15 @@
 #include <utility>
 
 #include "render/clouds.h"
+#include "render/gl/debug_log.h"
+#include "render/gl/objects.h"
 
 namespace skyig::server {
 
-GlPainter::GlPainter(GlSeatSettings settings) : settings_(std::move(settings)) {
+GlPainter::GlPainter(GlSeatSettings settings)
+    : settings_(std::move(settings)),
+      guards_(settings_.channels.size()),
+      errors_to_make_(settings_.channels.size()) {
     sit_down();
 }
 
@@ -51,14 +56,38 @@ void GlPainter::prepare(const render::Scene& scene) {
 
 void GlPainter::prepare_seat(const render::Scene& scene) {
     if (clouds_wanted_ || scene.weather.cloud_count > 0) draw_clouds();
+    seat_->renderer().thin(thinned_);
     const render::FrameReport& report = seat_->renderer().prepare(scene);
     passes_ = report.plan.passes;
+    thinnable_ = render::thinnable(report.plan);
+    rebuilt_ = report.plan.needs(render::Pass::kAirTables) || report.plan.needs(render::Pass::kSunSky) ||
+               report.plan.needs(render::Pass::kMoonSky);
     errors_ = report.gl_errors;
     adaptation_cd_m2_ = report.adaptation_cd_m2;
 }
 
 void GlPainter::draw(std::size_t channel) {
-    if (seat_) seat_->renderer().draw(channel);
+    if (!seat_ || !guards_[channel].try_now()) return;
+    try {
+        try_to_draw(channel);
+    } catch (const std::exception& error) {
+        guards_[channel].failed(error.what());
+    }
+    if (guards_[channel].health().failed) seat_->renderer().cross_out(channel);
+}
+
+void GlPainter::try_to_draw(std::size_t channel) {
+    render::Renderer& renderer = seat_->renderer();
+    const std::uint64_t errors_before = renderer.gl_errors();
+    if (errors_to_make_[channel] > 0) {
+        --errors_to_make_[channel];
+        render::gl::inject_error();
+    }
+    renderer.draw(channel);
+    if (renderer.gl_errors() == errors_before)
+        guards_[channel].drawn();
+    else
+        guards_[channel].failed("OpenGL reported an error");
 }
 
 bool GlPainter::present() {
@@ -83,6 +112,16 @@ void GlPainter::read_luminance(std::size_t channel, std::span<float> rgb_cd_m2) 
 
 void GlPainter::inject_reset() noexcept {
     if (seat_) seat_->resets().inject();
+}
+
+// Mesa names both of its software rasterisers.
+bool GlPainter::on_processor() const {
+    const std::string text = description();
+    return text.find("llvmpipe") != std::string::npos || text.find("softpipe") != std::string::npos;
+}
+
+std::size_t GlPainter::gl_objects() const {
+    return seat_ ? render::gl::count_objects() : 0;
 }
 
 std::size_t GlPainter::passes(std::span<status::PassState> rows) const {

@@ -6,7 +6,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "server/channel_guard.h"
 #include "server/gl_seat.h"
 #include "server/painter.h"
 
@@ -20,6 +22,8 @@ class GlPainter final : public Painter {
     /// Clouds can be drawn from the next frame on. Called at the first scene that has some if it was not
     /// before: who must not be held up then for a quarter of a second calls it at the start.
     void draw_clouds();
+    void thin(render::Thinned thinned) override { thinned_ = thinned; }
+    [[nodiscard]] render::Thinned thinnable() const override { return thinnable_; }
     /// After a reset it takes as long as a start; while the device cannot be had it is asked for every
     /// kRetryFrames, and the channels keep what they show.
     void prepare(const render::Scene& scene) override;
@@ -29,14 +33,23 @@ class GlPainter final : public Painter {
     void read_back(std::size_t channel, std::span<std::byte> rgba) override;
     /// Of a target of luminance. \see render::Renderer::read_luminance()
     void read_luminance(std::size_t channel, std::span<float> rgb_cd_m2);
+    [[nodiscard]] bool rebuilt() const override { return rebuilt_; }
+    [[nodiscard]] bool on_processor() const override;
+    [[nodiscard]] std::size_t gl_objects() const override;
     [[nodiscard]] std::uint64_t gl_errors() const override { return errors_before_ + errors_; }
     [[nodiscard]] std::uint64_t resets() const override { return resets_; }
     [[nodiscard]] double adaptation_cd_m2() const override { return adaptation_cd_m2_; }
     [[nodiscard]] std::size_t passes(std::span<status::PassState> rows) const override;
     [[nodiscard]] std::string description() const override { return description_; }
 
+    [[nodiscard]] status::ChannelHealth health(std::size_t channel) const override {
+        return guards_[channel].health();
+    }
+
     /// As if the device had been reset before the next frame.
     void inject_reset() noexcept;
+    /// OpenGL will report an error in the channel's next `count` draws.
+    void inject_errors(std::size_t channel, int count) noexcept { errors_to_make_[channel] = count; }
 
     static constexpr int kRetryFrames = 60;
 
@@ -44,14 +57,20 @@ class GlPainter final : public Painter {
     void sit_down();
     void prepare_seat(const render::Scene& scene);
     void leave_lost_device() noexcept;
+    void try_to_draw(std::size_t channel);
 
     GlSeatSettings settings_;
     std::unique_ptr<GlSeat> seat_;  // none while the device cannot be had
     std::string description_;
     std::array<render::PlannedPass, render::kPassCount> passes_{};
+    render::Thinned thinned_;
+    render::Thinned thinnable_;
+    bool rebuilt_ = false;
     /// What eyes were adapted to when the device was lost.
     std::optional<render::eye::Adaptation> eyes_;
     int frames_to_retry_ = 0;
+    std::vector<ChannelGuard> guards_;
+    std::vector<int> errors_to_make_;
     bool clouds_wanted_ = false;
     bool draws_clouds_ = false;
     std::uint64_t errors_ = 0;

@@ -18,7 +18,11 @@ GlSeat::GlSeat(const GlSeatSettings& settings) {
 }
 
 bool GlSeat::present() {
-    return !desktop_ || desktop_->present(shown_);
+    if (!desktop_) return true;
+    // A channel's picture may have been made since.
+    for (std::size_t i = 0; i < shown_.size(); ++i)
+        shown_[i].texture = renderer_->texture(i);
+    return desktop_->present(shown_);
 }
 
 std::string GlSeat::description() const {

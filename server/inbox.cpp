@@ -19,9 +19,9 @@ constexpr double kRepeatAfter_s = 10.0;
 /// Hands the packets of one message to the world and sees what passes by.
 class Inbox::Handler {
   public:
-    Handler(Inbox& inbox, std::size_t source, const transport::Endpoint& from)
-        : inbox_(inbox), source_(source), from_(from) {
-        inbox_.world_.begin_message(source, from);
+    Handler(Inbox& inbox, std::size_t source, const transport::Datagram& datagram)
+        : inbox_(inbox), source_(source), from_(datagram.from), arrival_ns_(datagram.arrival_ns) {
+        inbox_.world_.begin_message(source, from_);
     }
 
     template <class P>
@@ -33,7 +33,7 @@ class Inbox::Handler {
         } else {
             inbox_.world_(packet);
         }
-        if constexpr (std::same_as<P, cigi::IgControl>) note_lag(packet);
+        if constexpr (std::same_as<P, cigi::IgControl>) note_control(packet);
     }
 
     void refused(const cigi::RefusedPacket& packet, const cigi::PacketInfo& info) {
@@ -58,15 +58,20 @@ class Inbox::Handler {
     }
 
   private:
-    /// A host that has not heard of us yet echoes 0: no lag can be told from that.
-    void note_lag(const cigi::IgControl& control) {
-        if (control.last_ig_frame_number == 0 || !inbox_.world_.from_obeyed_host()) return;
+    void note_control(const cigi::IgControl& control) {
+        if (!inbox_.world_.from_obeyed_host()) return;
+        inbox_.frame_arrivals_.add({control.host_frame_number, arrival_ns_});
+        inbox_.host_timing_.heard(control, arrival_ns_);
+        inbox_.last_echo_ = control.last_ig_frame_number;
+        // A host that has not heard of us yet echoes 0: no lag can be told from that.
+        if (control.last_ig_frame_number == 0) return;
         inbox_.frames_behind_.add(inbox_.world_.session().round_trip_frames());
     }
 
     Inbox& inbox_;
     std::size_t source_;
     transport::Endpoint from_;
+    std::int64_t arrival_ns_;
 };
 
 Inbox::Inbox(const config::Config& config, world::World& world, Log& log)
@@ -87,6 +92,7 @@ Inbox::Inbox(const config::Config& config, world::World& world, Log& log)
 void Inbox::take(std::size_t source, const transport::Datagram& datagram) {
     ++datagrams_;
     ++arrivals_[source];
+    frame_arrivals_.add(datagram.arrival_ns);
     if (flight_models_[source]) {
         flight_models_[source]->take(datagram);
     } else {
@@ -96,7 +102,7 @@ void Inbox::take(std::size_t source, const transport::Datagram& datagram) {
 
 void Inbox::take_message(std::size_t source, const transport::Datagram& datagram) {
     const cigi::MessageSummary summary =
-        cigi::decode_host_message(datagram.bytes, Handler(*this, source, datagram.from), counters_);
+        cigi::decode_host_message(datagram.bytes, Handler(*this, source, datagram), counters_);
     if (!summary.fault) return;
     if (summary.accepted) {
         world_.outbox().messages.add(world::Matter::kMessageCut, "message ignored from byte {} on: {}",
@@ -113,6 +119,7 @@ void Inbox::take_message(std::size_t source, const transport::Datagram& datagram
 
 void Inbox::take(std::size_t source, const protocol::CanFrame& frame) {
     ++arrivals_[source];
+    frame_arrivals_.add(frame.received_ns);
     if (buses_[source]) buses_[source]->take(frame);
 }
 

@@ -9,8 +9,10 @@
 
 #include "config/config.h"
 #include "protocol/cigi/counters.h"
+#include "server/arrivals.h"
 #include "server/bus_input.h"
 #include "server/flightgear_input.h"
+#include "server/host_timing.h"
 #include "server/log.h"
 #include "server/report.h"
 #include "server/wire.h"
@@ -23,11 +25,18 @@ class Inbox final : public ArrivalTaker {
     /// \throws std::runtime_error with one line when a bus's identifiers cannot be used
     Inbox(const config::Config& config, world::World& world, Log& log);
 
+    /// Another frame takes what comes from here on.
+    void begin_frame() noexcept { frame_arrivals_.clear(); }
     void take(std::size_t source, const protocol::transport::Datagram& datagram) override;
     void take(std::size_t source, const protocol::CanFrame& frame) override;
 
     [[nodiscard]] const protocol::cigi::Counters& counters() const noexcept { return counters_; }
     [[nodiscard]] const FramesBehind& frames_behind() const noexcept { return frames_behind_; }
+    /// What the frame at hand has taken.
+    [[nodiscard]] const Arrivals& frame_arrivals() const noexcept { return frame_arrivals_; }
+    [[nodiscard]] const HostTiming& host_timing() const noexcept { return host_timing_; }
+    /// The frame number that the host in control has echoed last; 0: none.
+    [[nodiscard]] std::uint32_t last_echo() const noexcept { return last_echo_; }
     /// The bus of a source, or null.
     [[nodiscard]] const BusInput* bus(std::size_t source) const noexcept { return buses_[source].get(); }
     /// The flight model of a source, or null.
@@ -51,6 +60,9 @@ class Inbox final : public ArrivalTaker {
     Log& log_;
     protocol::cigi::Counters counters_;
     FramesBehind frames_behind_;
+    Arrivals frame_arrivals_;
+    HostTiming host_timing_;
+    std::uint32_t last_echo_ = 0;
     std::uint64_t datagrams_ = 0;
     std::vector<std::uint64_t> arrivals_;
     /// By source; null where it speaks something else.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -183,12 +184,8 @@ std::vector<BusRow> LiveWire::bus_rows() const {
 }
 
 bool LiveWire::send(std::size_t source, const transport::Endpoint& to, std::span<const std::byte> bytes) {
-    for (Socket& socket : sockets_) {
-        for (const Listener& listener : socket.listeners) {
-            if (listener.source == source) return socket.sender->send(to, bytes);
-        }
-    }
-    return false;
+    Socket* socket = socket_of(source);
+    return socket != nullptr && socket->sender->send(to, bytes);
 }
 
 transport::UdpCounters LiveWire::counters() const {
@@ -206,13 +203,24 @@ transport::UdpCounters LiveWire::counters() const {
     return sum;
 }
 
-const LiveWire::Socket* LiveWire::socket_of(std::size_t source) const noexcept {
-    for (const Socket& socket : sockets_) {
+LiveWire::Socket* LiveWire::socket_of(std::size_t source) noexcept {
+    for (Socket& socket : sockets_) {
         for (const Listener& listener : socket.listeners) {
             if (listener.source == source) return &socket;
         }
     }
     return nullptr;
+}
+
+const LiveWire::Socket* LiveWire::socket_of(std::size_t source) const noexcept {
+    return const_cast<LiveWire*>(this)->socket_of(source);
+}
+
+bool LiveWire::wait(std::size_t source, std::int64_t most_ns) {
+    Socket* socket = socket_of(source);
+    if (socket == nullptr) return false;
+    const auto most = std::chrono::ceil<std::chrono::milliseconds>(std::chrono::nanoseconds(most_ns));
+    return socket->receiver->wait(most);
 }
 
 std::optional<transport::Endpoint> LiveWire::local(std::size_t source) const {

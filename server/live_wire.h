@@ -24,6 +24,8 @@ class LiveWire final : public Wire {
 
     void open_frame(const FrameMark& /*mark*/, std::span<const std::byte> /*message*/) override {}
     void drain(ArrivalTaker& taker) override;
+    [[nodiscard]] bool wait(std::size_t source, std::int64_t most_ns) override;
+    [[nodiscard]] bool live() const noexcept override { return true; }
     bool send(std::size_t source, const protocol::transport::Endpoint& to,
               std::span<const std::byte> bytes) override;
     [[nodiscard]] protocol::transport::UdpCounters counters() const override;
@@ -66,6 +68,7 @@ class LiveWire final : public Wire {
              const std::vector<config::UdpAddress>& allow);
     static void open(Socket& socket);
     [[nodiscard]] const Socket* socket_of(std::size_t source) const noexcept;
+    [[nodiscard]] Socket* socket_of(std::size_t source) noexcept;
     [[nodiscard]] static std::optional<std::size_t> owner(const Socket& socket,
                                                           const protocol::transport::Endpoint& from) noexcept;
 

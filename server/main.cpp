@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "config/config.h"
 #include "server/bus_input.h"
@@ -28,6 +29,11 @@ void declare(CLI::App& app, DaemonOptions& options) {
         ->type_name("FILE");
     app.add_flag("--check", options.check, "check the settings, say all that is wrong, and end");
     app.add_flag("--headless", options.headless, "no windows, whatever the settings say");
+    app.add_option("--pattern", options.pattern,
+                   "show this test pattern in all channels until the host asks for another")
+        ->check(CLI::IsMember(std::vector<std::string>(skyig::config::kPatternNames.begin(),
+                                                       skyig::config::kPatternNames.end())))
+        ->type_name("NAME");
     app.add_option("--frames", options.frames, "end after N frames (0: run until SIGINT or SIGTERM)")
         // As signed numbers: a negative one would wrap to a count without end.
         ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000'000}))
@@ -84,10 +90,11 @@ int run(int argc, char** argv) {
     const std::optional<DaemonOptions> options = read_command_line(argc, argv, exit_status);
     if (!options) return exit_status;
 
-    const skyig::config::LoadResult loaded = skyig::config::load_config(options->config_path);
+    skyig::config::LoadResult loaded = skyig::config::load_config(options->config_path);
     for (const skyig::config::ConfigError& error : loaded.errors)
         fmt::print(stderr, "{}\n", skyig::config::to_text(error));
     if (!loaded.config) return kWrongUsage;
+    if (!options->pattern.empty()) skyig::config::show_pattern(*loaded.config, options->pattern);
     skyig::server::ephemeris::EarthOrientationResult orientation =
         skyig::server::load_earth_orientation(*loaded.config, options->config_path);
     if (!orientation) {
@@ -102,6 +109,10 @@ int run(int argc, char** argv) {
         !fault.empty()) {
         fmt::print(stderr, "{}\n", fault);
         return kWrongUsage;
+    }
+    if (const std::string left_out = skyig::server::metar_left_out(*loaded.config, options->config_path);
+        !left_out.empty()) {
+        fmt::print(stderr, "warning: {}\n", left_out);
     }
     if (options->check) {
         fmt::print("{}\n", skyig::config::describe(*loaded.config));

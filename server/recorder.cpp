@@ -138,8 +138,12 @@ void Recorder::write_out() {
         bool done = false;
         if (head.kind == Kind::kMark) {
             std::array<char, 64> text{};
-            const auto end = fmt::format_to_n(text.data(), text.size(), "frame {} slots {}", head.mark.number,
-                                              head.mark.slots);
+            auto end = fmt::format_to_n(text.data(), text.size(), "frame {} slots {}", head.mark.number,
+                                        head.mark.slots);
+            if (head.mark.thinned != 0) {
+                const std::size_t room = text.size() - std::min(end.size, text.size());
+                end.size += fmt::format_to_n(end.out, room, " thinned {}", head.mark.thinned).size;
+            }
             done = writer_->pcapng->write_udp(record.arrival_ns, record.from, {}, payload,
                                               {text.data(), std::min(end.size, text.size())});
         } else if (head.kind == Kind::kDatagram) {

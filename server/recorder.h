@@ -107,6 +107,10 @@ class RecordingWire final : public Wire {
         inner_.open_frame(mark, message);
     }
     void drain(ArrivalTaker& taker) override;
+    [[nodiscard]] bool wait(std::size_t source, std::int64_t most_ns) override {
+        return inner_.wait(source, most_ns);
+    }
+    [[nodiscard]] bool live() const noexcept override { return inner_.live(); }
     bool send(std::size_t source, const protocol::transport::Endpoint& to,
               std::span<const std::byte> bytes) override {
         return inner_.send(source, to, bytes);

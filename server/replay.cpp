@@ -93,6 +93,8 @@ std::optional<FrameMark> Replay::mark_of(const recording::CapturedPacket& packet
     std::string_view text = packet.comment;
     if (!read_number(text, "frame ", mark.number) || !read_number(text, " slots ", mark.slots))
         return std::nullopt;
+    // Older recordings have none.
+    (void)read_number(text, " thinned ", mark.thinned);
     mark.utc_ns = packet.time_ns;
     return mark;
 }
@@ -103,7 +105,7 @@ std::optional<FrameMark> Replay::begin_frame() {
     if (!has_marks_) {
         const auto step = static_cast<double>(frames_ - 1) * period_ns_;
         frame_ns_ = origin_ns_ + std::llround(step);
-        return FrameMark{frames_, frames_ == 1 ? 0U : 1U, frame_ns_};
+        return FrameMark{frames_, frames_ == 1 ? 0U : 1U, 0, frame_ns_};
     }
     std::optional<FrameMark> mark = mark_of(*next_);
     while (!mark) {
@@ -180,7 +182,7 @@ std::optional<FramePacer::Slot> ReplayPace::next() {
     const double elapsed_s = static_cast<double>(slots_) * period_s_;
     now_.advance_ns(std::llround(static_cast<double>(mark->slots) * period_s_ * 1e9));
     if (speed_ > 0.0) wall_.sleep_until_ns(wall_start_ns_ + std::llround(elapsed_s / speed_ * 1e9));
-    return FramePacer::Slot{now_.monotonic_ns(), mark->slots, false};
+    return FramePacer::Slot{now_.monotonic_ns(), mark->slots, false, mark->thinned};
 }
 
 }  // namespace skyig::server

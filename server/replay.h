@@ -89,6 +89,7 @@ class ReplayPace final : public Pace {
 
     [[nodiscard]] std::optional<FramePacer::Slot> next() override;
     [[nodiscard]] double period_s() const noexcept override { return period_s_; }
+    [[nodiscard]] bool replays() const noexcept override { return true; }
 
   private:
     Replay& replay_;

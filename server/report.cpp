@@ -62,10 +62,29 @@ std::string to_table(const RunReport& report) {
     const auto out = std::back_inserter(text);
     fmt::format_to(out, "frames          {} in {:.1f} s at {:g} Hz: {} late, {} left out\n", report.frames,
                    report.elapsed_s, report.rate_hz, report.late_frames, report.slots_left_out);
+    if (report.late_frames > 0)
+        fmt::format_to(out, "late by         {}\n", counts_text(report.late_by_cause));
+    if (report.host_timeouts > 0)
+        fmt::format_to(out, "host            not in time for {} frames\n", report.host_timeouts);
+    if (report.times_thinned > 0) {
+        fmt::format_to(
+            out, "thinned out     {} times, back {} times; at the end: {}\n", report.times_thinned,
+            report.times_returned,
+            report.thinned.empty() ? "nothing" : fmt::format("{}", fmt::join(report.thinned, ", ")));
+    }
     fmt::format_to(out, "processor       {:.1f} s, {:.1f} % of one\n", report.cpu_s, report.cpu_pct());
     fmt::format_to(out, "{:<32} {:>10} {:>10} {:>10}\n", "times in ms", "median", "p95", "largest");
     for (const TimeRow& row : report.times) {
         fmt::format_to(out, "  {:<30} {:>10.2f} {:>10.2f} {:>10.2f}\n", row.name, row.median_ms, row.p95_ms,
+                       row.largest_ms);
+    }
+    bool headed = false;
+    for (const DelayRow& row : report.delays) {
+        if (row.count == 0) continue;
+        if (!headed)
+            fmt::format_to(out, "{:<32} {:>10} {:>10} {:>10}\n", "delays in ms", "median", "p99", "largest");
+        headed = true;
+        fmt::format_to(out, "  {:<30} {:>10.2f} {:>10.2f} {:>10.2f}\n", row.name, row.median_ms, row.p99_ms,
                        row.largest_ms);
     }
     if (report.host.empty()) {
@@ -105,6 +124,20 @@ nlohmann::ordered_json report_json(const RunReport& report) {
     json["frames"] = report.frames;
     json["late_frames"] = report.late_frames;
     json["slots_left_out"] = report.slots_left_out;
+    json["late_by_cause"] = counts_json(report.late_by_cause);
+    json["host_timeouts"] = report.host_timeouts;
+    json["delays"] = nlohmann::ordered_json::array();
+    for (const DelayRow& row : report.delays) {
+        json["delays"].push_back({{"name", row.name},
+                                  {"count", row.count},
+                                  {"median_ms", row.median_ms},
+                                  {"p99_ms", row.p99_ms},
+                                  {"largest_ms", row.largest_ms}});
+    }
+    json["thinning"] = {{"thinned", report.thinned},
+                        {"times_thinned", report.times_thinned},
+                        {"times_returned", report.times_returned}};
+    json["gl_objects"] = report.gl_objects;
     json["times"] = nlohmann::ordered_json::array();
     for (const TimeRow& row : report.times) {
         json["times"].push_back({{"name", row.name},

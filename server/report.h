@@ -61,6 +61,14 @@ struct TimeRow {
     double largest_ms = 0.0;
 };
 
+struct DelayRow {
+    std::string name;
+    std::uint64_t count = 0;
+    double median_ms = 0.0;
+    double p99_ms = 0.0;
+    double largest_ms = 0.0;
+};
+
 struct NamedCount {
     std::string name;
     std::uint64_t count = 0;
@@ -86,6 +94,18 @@ struct RunReport {
     std::uint64_t late_frames = 0;
     /// Grid slots without a frame, since the frame before took longer than a whole period.
     std::uint64_t slots_left_out = 0;
+    /// Late frames by what held them up.
+    std::vector<NamedCount> late_by_cause;
+    /// From a message's arrival in the kernel to its picture: the channels, then "shown"; then of the host in
+    /// control "host interval" and, if it stamps its messages, "host jitter".
+    std::vector<DelayRow> delays;
+    /// Frames that went on without the host's answer.
+    std::uint64_t host_timeouts = 0;
+    /// What is left out now, and how often something was left out and came back.
+    std::vector<std::string> thinned;
+    std::uint64_t times_thinned = 0;
+    std::uint64_t times_returned = 0;
+    std::uint64_t gl_objects = 0;
     /// "input" and "shared" first, then the channels, "frame" last.
     std::vector<TimeRow> times;
 

@@ -43,6 +43,20 @@ render::Frustum frustum_of(const world::HalfAngles& angles) noexcept {
             angles.top_deg * kRadPerDeg};
 }
 
+/// Mirror mode and pixel replication as CIGI numbers them: bit 0 and bit 1 of the one are across and upright,
+/// of the other upright and across.
+render::Showing showing_of(const world::View& view) noexcept {
+    return {.mirrored_across = (view.mirror_mode & 1U) != 0,
+            .mirrored_upright = (view.mirror_mode & 2U) != 0,
+            .repeat_across = (view.pixel_replication & 2U) != 0 ? 2 : 1,
+            .repeat_upright = (view.pixel_replication & 1U) != 0 ? 2 : 1,
+            .parallel = view.orthographic};
+}
+
+static_assert(static_cast<int>(config::Pattern::kName) == static_cast<int>(render::Pattern::kName) &&
+                  config::kPatternNames == render::kPatternNames,
+              "one order of patterns in settings and pictures");
+
 /// Mean Johnson B-V of Mercury, Venus, Mars, Jupiter, Saturn (Allen's Astrophysical Quantities, 4th edition
 /// 2000).
 constexpr std::array<double, render::kPlanetCount> kPlanetBv{0.93, 0.82, 1.36, 0.83, 1.04};
@@ -208,6 +222,8 @@ void SceneBuilder::aim_views(const world::World& world, render::Scene& scene) no
         const world::View& view = views[i];
         const glm::dmat3 group_from_body = axes_from_parent(world.views().group(view.group_id));
         scene.views[i].frustum = frustum_of(view.half_angles);
+        scene.views[i].showing = showing_of(view);
+        scene.views[i].pattern = static_cast<render::Pattern>(view.pattern);
         scene.views[i].view_from_enu =
             render::view_from_body() * axes_from_parent(view.pose) * group_from_body * body_from_eye_enu;
     }

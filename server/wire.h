@@ -32,6 +32,8 @@ struct FrameMark {
     std::uint64_t number = 0;
     /// Steps of the frame rate's grid since the frame before.
     std::uint64_t slots = 0;
+    /// What it leaves out, by the numbers of render::Thin.
+    std::uint64_t thinned = 0;
     /// UTC, POSIX nanoseconds.
     std::int64_t utc_ns = 0;
 };
@@ -50,6 +52,11 @@ class Wire {
     /// Hands on what has come, oldest first; what is more than a frame can take waits for the next. Waits for
     /// nothing, allocates nothing.
     virtual void drain(ArrivalTaker& taker) = 0;
+    /// Waits until something of that source has come that drain() has not handed on, for `most_ns` at most.
+    /// \return whether it has; at once and false where nothing more can come
+    [[nodiscard]] virtual bool wait(std::size_t /*source*/, std::int64_t /*most_ns*/) { return false; }
+    /// Whether arrivals are stamped by this machine's clock, now.
+    [[nodiscard]] virtual bool live() const noexcept { return false; }
     /// False when the system did not take it.
     virtual bool send(std::size_t source, const protocol::transport::Endpoint& to,
                       std::span<const std::byte> bytes) = 0;

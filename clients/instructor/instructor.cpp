@@ -121,8 +121,7 @@ class Program {
             station_.daemon_is_silent(news->silence);
         }
         std::vector<std::string> channels;
-        if (web_->open_sockets() > 0 && station_.status().contains("channels"))
-            channels = station_.status()["channels"].get<std::vector<std::string>>();
+        if (web_->open_sockets() > 0) channels = station_.channel_names();
         watch_.want(std::move(channels));
     }
 

@@ -284,6 +284,15 @@ std::string Station::state_text() const {
     return state.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::vector<std::string> Station::channel_names() const {
+    std::vector<std::string> names;
+    const auto channels = status_.find("channels");
+    if (channels == status_.end() || !channels->is_array()) return names;
+    for (const Json& channel : *channels)
+        if (channel.is_object()) names.push_back(channel.value("name", ""));
+    return names;
+}
+
 std::string Station::status_text(double time_s, const Json& port) const {
     Json json{{"type", "status"},
               {"silence", silence_},
@@ -292,11 +301,11 @@ std::string Station::status_text(double time_s, const Json& port) const {
               {"weather_shown", !weather_asked_ || weather_shown()},
               {"said_again", said_again_},
               {"port", port}};
-    for (const char* key :
-         {"version", "renderer", "rate_hz", "frames", "late_frames", "recent", "times", "host", "health",
-          "uptime_s", "channels", "world", "sources", "authority", "plan"}) {
+    for (const char* key : {"version", "renderer", "rate_hz", "frames", "late_frames", "recent", "times",
+                            "host", "health", "uptime_s", "world", "sources", "authority", "plan"}) {
         if (const auto found = status_.find(key); found != status_.end()) json[key] = *found;
     }
+    json["channels"] = channel_names();
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

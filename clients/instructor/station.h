@@ -48,6 +48,8 @@ class Station {
 
     [[nodiscard]] const Setting& weather() const noexcept { return now_.weather; }
     [[nodiscard]] const nlohmann::ordered_json& status() const noexcept { return status_; }
+    /// As the daemon's status names them.
+    [[nodiscard]] std::vector<std::string> channel_names() const;
 
   private:
     using Json = nlohmann::ordered_json;

@@ -6,6 +6,9 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "clients/bench/family.h"
 #include "clients/bench/pages.h"
@@ -15,14 +18,22 @@ namespace skyig::clients {
 
 namespace {
 
+/// What is not of a family: it draws.
+constexpr std::string_view kFrame = "frame";
+constexpr std::string_view kFrameWhat = "frames a second by picture size and scene, and what thinning saves";
+
 int list_families(bool json) {
     std::string text;
-    for (const bench::Family& family : bench::families()) {
+    std::vector<std::pair<std::string_view, std::string_view>> all;
+    for (const bench::Family& family : bench::families())
+        all.emplace_back(family.name, family.what);
+    all.emplace_back(kFrame, kFrameWhat);
+    for (const auto& [name, what] : all) {
         if (json) {
             text += fmt::format("{}{{\"family\": \"{}\", \"what\": \"{}\"}}", text.empty() ? "" : ",\n ",
-                                family.name, family.what);
+                                name, what);
         } else {
-            text += fmt::format("{:<12} {}\n", family.name, family.what);
+            text += fmt::format("{:<12} {}\n", name, what);
         }
     }
     fmt::print("{}", json ? fmt::format("[{}]\n", text) : text);
@@ -32,7 +43,8 @@ int list_families(bool json) {
 int unknown_family(const std::string& name) {
     std::string known;
     for (const bench::Family& family : bench::families())
-        known += fmt::format("{}{}", known.empty() ? "" : ", ", family.name);
+        known += fmt::format("{}, ", family.name);
+    known += kFrame;
     fmt::print(stderr, "skyig: bench: there is no family '{}'; there are: {}\n", name, known);
     return 2;
 }

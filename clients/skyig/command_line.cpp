@@ -13,6 +13,7 @@
 #include "clients/skyig/ephem/almanac.h"
 #include "clients/skyig/ephem/star_name.h"
 #include "clients/skyig/instructor_command.h"
+#include "clients/skyig/latency/latency_command.h"
 #include "clients/skyig/metar_command.h"
 #include "clients/skyig/options.h"
 #include "clients/skyig/rvr_command.h"
@@ -28,9 +29,9 @@ namespace skyig::clients {
 
 namespace {
 
-constexpr std::array<std::string_view, 17> kVerbs{
-    "host",   "shot",   "plan", "channels", "bench", "ephem", "cloud", "decode",    "metar",
-    "replay", "record", "sky",  "status",   "top",   "tone",  "rvr",   "instructor"};
+constexpr std::array<std::string_view, 18> kVerbs{
+    "host",  "latency", "shot",   "plan", "channels", "bench", "ephem", "cloud", "decode",
+    "metar", "replay",  "record", "sky",  "status",   "top",   "tone",  "rvr",   "instructor"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -332,6 +333,7 @@ struct Verbs {
     SkyOptions sky;
     ToneOptions tone;
     RvrOptions rvr;
+    LatencyOptions latency;
     InstructorOptions instructor;
     std::string order = "little";
     std::string horizon = "almanac";
@@ -369,6 +371,7 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
             verbs.sky);
     add_tone(app, verbs.tone);
     add_rvr(app, verbs.rvr);
+    add_latency(app, verbs.latency);
     add_instructor(app, verbs.instructor);
 }
 
@@ -397,6 +400,7 @@ void take_verb(const CLI::App& app, Verbs& verbs, Invocation& invocation) {
     if (app.got_subcommand("sky")) invocation.options = verbs.sky;
     if (app.got_subcommand("tone")) invocation.options = verbs.tone;
     if (app.got_subcommand("rvr")) invocation.options = verbs.rvr;
+    if (app.got_subcommand("latency")) invocation.options = verbs.latency;
     if (app.got_subcommand("instructor")) {
         check_instructor(verbs.instructor);
         invocation.options = verbs.instructor;

@@ -10,7 +10,9 @@
 #include "clients/skyig/cloud.h"
 #include "clients/skyig/decode.h"
 #include "clients/skyig/ephem.h"
+#include "clients/skyig/frame_rates.h"
 #include "clients/skyig/host.h"
+#include "clients/skyig/latency/latency.h"
 #include "clients/skyig/metar.h"
 #include "clients/skyig/options.h"
 #include "clients/skyig/plan.h"
@@ -34,7 +36,9 @@ int run(int argc, char** argv) {
     if (const auto* plan = std::get_if<PlanOptions>(&invocation.options)) return run_plan(*plan);
     if (const auto* channels = std::get_if<ChannelsOptions>(&invocation.options))
         return run_channels(*channels);
-    if (const auto* bench = std::get_if<BenchOptions>(&invocation.options)) return run_bench(*bench);
+    if (const auto* bench = std::get_if<BenchOptions>(&invocation.options))
+        return bench->family == "frame" ? run_frame_rates(*bench) : run_bench(*bench);
+    if (const auto* latency = std::get_if<LatencyOptions>(&invocation.options)) return run_latency(*latency);
     if (const auto* ephem = std::get_if<EphemOptions>(&invocation.options)) return run_ephem(*ephem);
     if (const auto* cloud = std::get_if<CloudOptions>(&invocation.options)) return run_cloud(*cloud);
     if (const auto* decode = std::get_if<DecodeOptions>(&invocation.options)) return run_decode(*decode);

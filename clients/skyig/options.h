@@ -58,6 +58,8 @@ struct StillOptions {
     std::optional<double> elevation_m;
     /// Of the day sky, in place of the settings' one.
     std::optional<config::SkyModel> sky_model;
+    /// Test pattern in place of the sky, one of config::kPatternNames; empty: as the settings say.
+    std::string pattern;
     /// Of the one channel without settings.
     int width_px = 1280;
     int height_px = 1024;
@@ -263,6 +265,19 @@ struct RvrOptions {
     bool json = false;
 };
 
+/// skyig latency: a host that flips an aircraft's attitude.
+struct LatencyOptions {
+    std::string to = "127.0.0.1:8004";
+    std::string listen = "127.0.0.1:8005";
+    double rate_hz = 58.3;
+    /// In each scene.
+    int flips = 200;
+    double settle_s = 3.0;
+    double wait_s = 10.0;
+    std::optional<double> at_most_frames;
+    bool json = false;
+};
+
 /// skyig instructor: the web station.
 struct InstructorOptions {
     std::string daemon_status = "http://127.0.0.1:8006";
@@ -279,8 +294,8 @@ struct InstructorOptions {
 /// Either a verb's options, or text to print and a status to leave with.
 struct Invocation {
     std::variant<std::monostate, HostOptions, ShotOptions, PlanOptions, ChannelsOptions, BenchOptions,
-                 EphemOptions, CloudOptions, DecodeOptions, MetarOptions, ReplayOptions, RecordOptions,
-                 SkyOptions, StatusOptions, ToneOptions, RvrOptions, InstructorOptions>
+                 EphemOptions, CloudOptions, LatencyOptions, DecodeOptions, MetarOptions, ReplayOptions,
+                 RecordOptions, SkyOptions, StatusOptions, ToneOptions, RvrOptions, InstructorOptions>
         options;
     int exit_status = 0;
     std::string output;  ///< for stdout (help, version)

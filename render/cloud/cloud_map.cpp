@@ -7,9 +7,6 @@ namespace skyig::render::cloud {
 
 namespace {
 
-// The slot of the near map's source; the snapshots have those before it.
-constexpr std::size_t kNearSlot = CloudMaker::kSlots - 1;
-
 // Beyond where density ends, what an eye that climbs may cover while a snapshot serves.
 constexpr double kNearReserve_m = 100.0;
 
@@ -41,6 +38,19 @@ bool same_weather(const Weather& a, const Weather& b) noexcept {
            a.lightnings == b.lightnings;
 }
 
+/// Whether clouds come, go or grow, other than by drift, age and their place.
+bool have_grown(const Weather& before, const Weather& now) noexcept {
+    if (before.cloud_count != now.cloud_count) return true;
+    for (std::size_t i = 0; i < now.cloud_count; ++i) {
+        CloudLayer moved = before.clouds[i];
+        moved.drift_m = now.clouds[i].drift_m;
+        moved.age_s = now.clouds[i].age_s;
+        moved.area = now.clouds[i].area;
+        if (moved != now.clouds[i]) return true;
+    }
+    return false;
+}
+
 /// What the eye's displacement is measured against; null: there are no clouds.
 const CloudLayer* measured_layer(const Weather& weather) noexcept {
     return weather.cloud_count > 0 ? &weather.clouds[0] : nullptr;
@@ -54,10 +64,25 @@ const CloudLayer* layer_of(const Weather& weather, std::uint32_t seed) noexcept 
     return found == clouds.end() ? nullptr : &*found;
 }
 
-/// Whether the eye was carried to another place since the frame before: no craft covers so much in one.
+/// Whether the eye was carried to another place since the frame before: no craft covers so much in one. Or
+/// beside a pole, where the directions that the map is fixed to turn under the eye.
 bool has_leapt(const Eye& before, const Eye& now) noexcept {
+    constexpr double kMostTurn_rad = 0.1;
     const glm::dvec3 way_m = eye_offset_m(before, now);
-    return std::hypot(way_m.x, way_m.y) > 500.0 + 0.02 * std::abs(now.height_m);
+    return std::hypot(way_m.x, way_m.y) > 500.0 + 0.02 * std::abs(now.height_m) ||
+           std::abs(axes_turn_rad(before, now)) > kMostTurn_rad;
+}
+
+/// Where the eye will be; those that come near a pole are not led, for latitude and longitude go on to
+/// nowhere there.
+Eye led(Eye eye, const Eye& motion_a_frame, double frames) noexcept {
+    constexpr double kLast_deg = 89.98;
+    if (std::abs(eye.latitude_deg + frames * motion_a_frame.latitude_deg) < kLast_deg) {
+        eye.latitude_deg += frames * motion_a_frame.latitude_deg;
+        eye.longitude_deg += frames * motion_a_frame.longitude_deg;
+    }
+    eye.height_m += frames * motion_a_frame.height_m;
+    return eye;
 }
 
 }  // namespace
@@ -132,9 +157,9 @@ Frozen CloudMap::frozen_at(const MapFrame& frame, const Eye& eye) const noexcept
 
 void CloudMap::begin(CloudMaker& maker, const MapFrame& frame, double frames_ahead) {
     CloudMoment moment = frame.moment;
-    moment.eye.latitude_deg += frames_ahead * motion_a_frame_.latitude_deg;
-    moment.eye.longitude_deg += frames_ahead * motion_a_frame_.longitude_deg;
-    moment.eye.height_m += frames_ahead * motion_a_frame_.height_m;
+    moment.eye = led(moment.eye, motion_a_frame_, frames_ahead);
+    next_grows_ = have_grown(frozen_weather_, frame.moment.scene.weather);
+    march_frames_ = 0;
     frozen_eye_ = frame.moment.eye;
     frozen_weather_ = frame.moment.scene.weather;
     frozen_light_ = frame.moment.light;
@@ -171,8 +196,22 @@ void CloudMap::march_all(CloudMaker& maker, const MapFrame& frame) {
     rays_ += static_cast<int>(tiles_.size()) * kTileTexels;
     marching_ = false;
     std::swap(new_, next_);
-    blend_ = kBlendFrames;
+    blend_ = blend_frames_;
     shown_ = true;
+    ++revision_;
+}
+
+// The finished one takes over from now on.
+void CloudMap::take_over() noexcept {
+    const std::size_t free = old_;
+    old_ = new_;
+    new_ = next_;
+    next_ = free;
+    blend_ = 1;
+    grows_ = next_grows_;
+    blend_frames_ = grows_ ? std::max(kGrowthFrames, march_frames_) : kBlendFrames;
+    period_frames_ = static_cast<double>(frames_since_begin_);
+    marching_ = false;
     ++revision_;
 }
 
@@ -180,24 +219,16 @@ void CloudMap::advance(CloudMaker& maker, const MapFrame& frame, int tiles_a_fra
     worker_.wait();
     maker.follow(frame.moment, static_cast<float>(geometry_.worst_texel_rad()), false);
     tiles_done_ = tiles_asked_;
-    if (blend_ < kBlendFrames) {
+    if (blend_ < blend_frames_) {
         ++blend_;
         ++revision_;
     }
-    if (marching_ && tiles_done_ == tiles_.size() && blend_ >= kBlendFrames) {
-        // The finished one takes over from now on.
-        const std::size_t free = old_;
-        old_ = new_;
-        new_ = next_;
-        next_ = free;
-        blend_ = 1;
-        period_frames_ = static_cast<double>(frames_since_begin_);
-        marching_ = false;
-        ++revision_;
-    }
+    const bool done = marching_ && tiles_done_ == tiles_.size();
+    if (done && march_frames_ == 0) march_frames_ = static_cast<int>(frames_since_begin_);
+    if (done && blend_ >= blend_frames_) take_over();
     if (!marching_ && !stands_still(frame)) {
-        // Its life begins when it is done and ends when the one after it has taken over.
-        begin(maker, frame, 1.5 * period_frames_);
+        // Its life begins when it is done and ends when the one after it has taken over: the middle of both.
+        begin(maker, frame, (grows_ ? 2.0 : 1.5) * period_frames_);
     }
     if (!marching_ || tiles_asked_ == tiles_.size()) return;
     const auto count = std::min(static_cast<std::size_t>(tiles_a_frame), tiles_.size() - tiles_asked_);
@@ -212,7 +243,7 @@ void CloudMap::fill_in() {
     bool any = false;
     for (const int tile : seen_) {
         for (const std::size_t part : {old_, new_}) {
-            const bool shows = part == new_ || blend_ < kBlendFrames;
+            const bool shows = part == new_ || blend_ < blend_frames_;
             if (!shows || snapshots_[part].tile(tile) != Snapshot::Tile::kUnknown) continue;
             snapshots_[part].march(*sources_[part], tile);
             rays_ += kTileTexels;
@@ -227,13 +258,16 @@ void CloudMap::fill_in() {
 
 void CloudMap::show_near(CloudMaker& maker, const MapFrame& frame) {
     const auto in_use = parts();
-    near_shown_ =
+    const bool shown =
         std::any_of(in_use.begin(), in_use.end(), [](const Part& part) { return part.beyond_near; });
+    if (shown != near_shown_) ++revision_;
+    near_shown_ = shown;
     if (!near_shown_) return;
     Frozen frozen = frozen_at(frame, frame.moment.eye);
     frozen.range = {0.0F, static_cast<float>(kNearRange_m)};
-    near_rays_ = near_.march(maker.freeze(kNearSlot, frame.moment), frame.views, frozen);
-    ++revision_;
+    // All of a tile that is seen is asked for.
+    const double margin_rad = 1.5 * kTile * geometry_.worst_texel_rad();
+    near_rays_ = near_.march(maker.freeze(CloudMaker::kNearSlot, frame.moment), frame.views, margin_rad, frozen);
 }
 
 void CloudMap::tell_parts(const MapFrame& frame) noexcept {
@@ -247,9 +281,9 @@ void CloudMap::tell_parts(const MapFrame& frame) noexcept {
             eye_offset_m(frozen.eye, frame.moment.eye) - glm::dvec3{drifted_m_[index], 0.0};
         parts_[part_count_++] = {&snapshots_[index], weight, glm::vec3{offset_m}, frozen.range.from_m > 0.0F};
     };
-    const auto share = static_cast<float>(blend_) / static_cast<float>(kBlendFrames);
-    const float smooth = share * share * (3.0F - 2.0F * share);
-    if (blend_ < kBlendFrames) add(old_, 1.0F - smooth);
+    const auto share = static_cast<float>(blend_) / static_cast<float>(blend_frames_);
+    const float smooth = grows_ ? share : share * share * (3.0F - 2.0F * share);
+    if (blend_ < blend_frames_) add(old_, 1.0F - smooth);
     add(new_, smooth);
 }
 
@@ -273,7 +307,7 @@ void CloudMap::update(CloudMaker& maker, const MapFrame& frame, int size, int ti
 }
 
 bool CloudMap::is_clear() const noexcept {
-    return blend_ >= kBlendFrames && !marching_ &&
+    return blend_ >= blend_frames_ && !marching_ &&
            std::none_of(seen_.begin(), seen_.end(), [this](int tile) { return may_show(tile); });
 }
 
@@ -303,18 +337,27 @@ bool CloudMap::may_show(int tile) const noexcept {
 
 namespace {
 
-void add_part(CloudMap::Sight& sight, const CloudMap::Part& part, const LightAndPassed::Lanes& light,
-              double reach_m, const LightAndPassed::Lanes& near_light) noexcept {
-    const double passed = part.beyond_near ? static_cast<double>(near_light[3]) : 1.0;
-    const double factor = static_cast<double>(part.weight) * passed;
-    sight.far_light_cd_m2 += factor * glm::dvec3{light[0], light[1], light[2]};
-    sight.far_opacity += factor * (1.0 - static_cast<double>(light[3]));
-    sight.distance_m += factor * reach_m;
-    sight.transmittance += factor * static_cast<double>(light[3]);
-    if (part.beyond_near) {
-        sight.near_light_cd_m2 +=
-            static_cast<double>(part.weight) * glm::dvec3{near_light[0], near_light[1], near_light[2]};
-    }
+void add_part(CloudMap::Sight& sight, const CloudMap::Part& part, const Snapshot::Seen& far,
+              const Snapshot::Seen& near) noexcept {
+    const auto rgb = [](const LightAndPassed::Lanes& light) {
+        return glm::dvec3{light[0], light[1], light[2]};
+    };
+    const auto weight = static_cast<double>(part.weight);
+    const double factor = part.beyond_near ? weight * static_cast<double>(near.light[3]) : weight;
+    sight.far_light_cd_m2 += factor * rgb(far.light);
+    sight.far_opacity += factor * (1.0 - static_cast<double>(far.light[3]));
+    sight.distance_m += factor * static_cast<double>(far.reach_m);
+    sight.transmittance += factor * static_cast<double>(far.light[3]);
+    if (!part.beyond_near) return;
+    sight.near_light_cd_m2 += weight * rgb(near.light);
+    sight.near_opacity += weight * (1.0 - static_cast<double>(near.light[3]));
+    sight.near_distance_m += weight * static_cast<double>(near.reach_m);
+}
+
+// From sums of distances by their opacity.
+void mean_distances(CloudMap::Sight& sight) noexcept {
+    sight.distance_m = sight.far_opacity > 0.0 ? sight.distance_m / sight.far_opacity : 0.0;
+    sight.near_distance_m = sight.near_opacity > 0.0 ? sight.near_distance_m / sight.near_opacity : 0.0;
 }
 
 }  // namespace
@@ -325,14 +368,13 @@ CloudMap::Sight CloudMap::sight(const glm::dvec3& direction_enu) const noexcept 
         direction_enu / (std::abs(direction_enu.x) + std::abs(direction_enu.y) + std::abs(direction_enu.z))};
     Sight sight;
     sight.transmittance = 0.0;
-    const LightAndPassed::Lanes near_light =
-        near_shown_ ? near_.seen(direction) : LightAndPassed::Lanes{0.0F, 0.0F, 0.0F, 1.0F};
-    for (const Part& part : parts()) {
-        const Snapshot::Seen seen =
-            part.snapshot->seen(direction, part.snapshot->inverse_distance(direction), part.offset_m);
-        add_part(sight, part, seen.light, static_cast<double>(seen.reach_m), near_light);
-    }
-    sight.distance_m = sight.far_opacity > 0.0 ? sight.distance_m / sight.far_opacity : 0.0;
+    const Snapshot::Seen near =
+        near_shown_ ? near_.seen(direction) : Snapshot::Seen{{0.0F, 0.0F, 0.0F, 1.0F}, 0.0F};
+    for (const Part& part : parts())
+        add_part(sight, part,
+                 part.snapshot->seen(direction, part.snapshot->inverse_distance(direction), part.offset_m),
+                 near);
+    mean_distances(sight);
     return sight;
 }
 
@@ -342,12 +384,12 @@ CloudMap::Sight CloudMap::probe(std::size_t index) const noexcept {
     sight.transmittance = 0.0;
     for (const Part& part : parts()) {
         const CloudSample& sample = part.snapshot->probes()[index];
-        const LightAndPassed::Lanes light{sample.light_cd_m2.x, sample.light_cd_m2.y, sample.light_cd_m2.z,
-                                          sample.transmittance};
-        add_part(sight, {part.snapshot, part.weight, {}, false}, light,
-                 static_cast<double>((1.0F - sample.transmittance) * sample.distance_m), light);
+        const Snapshot::Seen seen{
+            {sample.light_cd_m2.x, sample.light_cd_m2.y, sample.light_cd_m2.z, sample.transmittance},
+            (1.0F - sample.transmittance) * sample.distance_m};
+        add_part(sight, {part.snapshot, part.weight, {}, false}, seen, seen);
     }
-    sight.distance_m = sight.far_opacity > 0.0 ? sight.distance_m / sight.far_opacity : 0.0;
+    mean_distances(sight);
     return sight;
 }
 

@@ -37,6 +37,9 @@ class CloudMap {
     static constexpr double kMargin_rad = 0.25;
     /// Frames over which a snapshot takes the place of another.
     static constexpr int kBlendFrames = 12;
+    /// The same of clouds that come, go or grow, if the next one's making takes no longer: one blend goes over
+    /// into the next, so that they change by as much in every frame.
+    static constexpr int kGrowthFrames = 60;
     static constexpr float kProbe_rad = 0.03F;
 
     CloudMap();
@@ -62,7 +65,8 @@ class CloudMap {
     /// One or two, whose weights sum to 1.
     [[nodiscard]] std::span<const Part> parts() const noexcept { return {parts_.data(), part_count_}; }
     [[nodiscard]] const NearMap* near_map() const noexcept { return near_shown_ ? &near_ : nullptr; }
-    /// Rises whenever what is seen has changed by anything but the eye's motion, which Part::offset_m tells.
+    /// Rises whenever what is seen of far clouds has changed by anything but the eye's motion, which
+    /// Part::offset_m tells.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
     /// Tiles that a view sees: all of them are known.
@@ -78,6 +82,8 @@ class CloudMap {
         double far_opacity = 0.0;         ///< likewise
         double distance_m = 0.0;          ///< of that part
         glm::dvec3 near_light_cd_m2{0.0};
+        double near_opacity = 0.0;
+        double near_distance_m = 0.0;
         double transmittance = 1.0;  ///< of all
     };
     /// \param direction_enu  unit vector, in a view
@@ -100,6 +106,7 @@ class CloudMap {
     void list_tiles(std::span<const ChannelView> views, double margin_rad, std::vector<int>& tiles);
     void march_all(CloudMaker& maker, const MapFrame& frame);
     void advance(CloudMaker& maker, const MapFrame& frame, int tiles_a_frame);
+    void take_over() noexcept;
     void fill_in();
     void show_near(CloudMaker& maker, const MapFrame& frame);
     void tell_parts(const MapFrame& frame) noexcept;
@@ -115,6 +122,10 @@ class CloudMap {
     std::size_t new_ = 1;
     std::size_t next_ = 2;
     int blend_ = kBlendFrames;  // frames of the blend that are over
+    int blend_frames_ = kBlendFrames;
+    bool grows_ = false;       // the clouds between the two that are blended
+    bool next_grows_ = false;  // between the last and the one in the making
+    int march_frames_ = 0;     // that the one in the making has taken
     bool shown_ = false;
     bool marching_ = false;
     bool wanted_near_ = false;

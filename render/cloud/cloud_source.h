@@ -1,6 +1,7 @@
 // What the cloud map asks of anything that draws clouds.
 #pragma once
 
+#include <algorithm>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -30,6 +31,14 @@ struct CloudRange {
     float to_m = 1e7F;
 };
 
+/// A source of parallel light, as good as.
+struct CloudBeam {
+    /// Towards it, unit vector, above the horizon, as a straight ray.
+    glm::vec3 direction_enu{0.0F, 0.0F, 1.0F};
+    /// Angle of its disc.
+    float spread_rad = 0.0F;
+};
+
 /// One frozen moment: eye, layers and light do not change. Answers depend on the ray alone, not on which rays
 /// are asked together or on which thread.
 class CloudSource {
@@ -41,6 +50,14 @@ class CloudSource {
     /// 0. A ray that meets no cloud gives exactly {0, 1, 0}. Rays end at the ground.
     virtual void march(std::span<const CloudRay> rays, const CloudRange& range, float ray_rad,
                        std::span<CloudSample> out) const noexcept = 0;
+
+    /// What clouds leave of a beam, scattered light apart, at places on the ground: east and north of below
+    /// the eye. \param grain_m  what is finer does not show \param passed  as many as places, 0..1. A source
+    /// that knows no better casts no shadow.
+    virtual void shadow(const CloudBeam& /*beam*/, float /*grain_m*/, std::span<const glm::vec2> /*ground_m*/,
+                        std::span<float> passed) const noexcept {
+        std::fill(passed.begin(), passed.end(), 1.0F);
+    }
 
   protected:
     CloudSource() = default;

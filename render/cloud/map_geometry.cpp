@@ -19,10 +19,9 @@ glm::vec3 MapGeometry::direction(double column, double row, bool lower) const no
     return glm::vec3{upper.x, upper.y, lower ? -upper.z : upper.z};
 }
 
-Cone MapGeometry::cone(int tile) const noexcept {
-    const Texel at = corner(tile);
+Cone MapGeometry::cone(const Texel& at, int side) const noexcept {
     // One texel more on each side: what is interpolated, and the step to the next tile.
-    const auto place = [&](int step) { return -1.0 + (kTile + 1) * 0.25 * step; };
+    const auto place = [&](int step) { return -1.0 + (side + 1) * 0.25 * step; };
     std::array<glm::dvec3, 25> around{};
     glm::dvec3 sum{0.0};
     for (int i = 0; i < 25; ++i) {
@@ -64,7 +63,9 @@ int map_size_for(double pixel_rad, std::span<const ChannelView> views) noexcept 
     }
     const double share = std::min(seen_sr / (4.0 * std::numbers::pi), 1.0);
     int size = kLeastMap;
-    while (size < kLargestMap && MapGeometry(size).worst_texel_rad() > 4.0 * pixel_rad)
+    // The least map is coarse to look at: edges of clouds are stairs in it sooner.
+    while (size < kLargestMap &&
+           MapGeometry(size).worst_texel_rad() > (size == kLeastMap ? 2.5 : 4.0) * pixel_rad)
         size *= 2;
     while (size > kLeastMap && share * static_cast<double>(MapGeometry(size).texel_count()) > kMostSeenTexels)
         size /= 2;

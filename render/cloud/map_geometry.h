@@ -56,7 +56,9 @@ class MapGeometry {
     /// The sizes of its components sum to 1. Places between and beside the texels are as good.
     [[nodiscard]] glm::vec3 direction(double column, double row, bool lower) const noexcept;
     /// Holds all directions between a tile's texels and their neighbours.
-    [[nodiscard]] Cone cone(int tile) const noexcept;
+    [[nodiscard]] Cone cone(int tile) const noexcept { return cone(corner(tile), kTile); }
+    /// The same of a square of texels.
+    [[nodiscard]] Cone cone(const Texel& first, int side) const noexcept;
     [[nodiscard]] Corners corners(int tile) const noexcept;
     /// Angle between neighbouring texels at the middle of a face of the octahedron, where they stand widest.
     [[nodiscard]] double worst_texel_rad() const noexcept { return 3.22 / size_; }
@@ -67,7 +69,8 @@ class MapGeometry {
     int size_;
 };
 
-/// The smallest of 512, 1024 and 2048 whose texels are nowhere wider than four of the rig's finest pixels,
+/// The smallest of 512, 1024 and 2048 whose texels are nowhere wider than four of the rig's finest pixels
+/// (of 512, two and a half),
 /// halved until what the views see of it is at most kMostSeenTexels.
 [[nodiscard]] int map_size_for(double pixel_rad, std::span<const ChannelView> views) noexcept;
 inline constexpr double kMostSeenTexels = 650e3;

@@ -19,17 +19,23 @@ class NearMap {
 
     NearMap();
 
-    /// Follows the rays that the views see; others stay as they are. Allocates nothing. \return how many
-    int march(const CloudSource& source, std::span<const ChannelView> views, const Frozen& frozen) noexcept;
+    /// Follows the rays that the views see; others stay as they are. Allocates nothing.
+    /// \param margin_rad  beside the views \return how many
+    int march(const CloudSource& source, std::span<const ChannelView> views, double margin_rad,
+              const Frozen& frozen) noexcept;
 
     /// \param direction  components whose sizes sum to 1
-    [[nodiscard]] LightAndPassed::Lanes seen(const glm::vec3& direction) const noexcept {
-        return map_.seen(direction, 0.0F, glm::vec3{0.0F}).light;
+    [[nodiscard]] Snapshot::Seen seen(const glm::vec3& direction) const noexcept {
+        return map_.seen(direction, 0.0F, glm::vec3{0.0F});
     }
 
   private:
     Snapshot map_;
-    std::vector<Cone> cones_;
+    struct Part {
+        MapGeometry::Texel corner;
+        Cone cone;
+    };
+    std::vector<Part> parts_;
 };
 
 }  // namespace skyig::render::cloud

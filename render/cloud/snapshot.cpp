@@ -16,10 +16,25 @@ constexpr CloudSample kNoCloud{};
 }  // namespace
 
 glm::dvec3 eye_offset_m(const Eye& from, const Eye& to) noexcept {
+    const double north_rad = glm::radians(to.latitude_deg - from.latitude_deg);
+    const double east_rad = glm::radians(std::remainder(to.longitude_deg - from.longitude_deg, 360.0));
+    const double from_rad = glm::radians(from.latitude_deg);
+    const double to_rad = glm::radians(to.latitude_deg);
+    // Of the unit vector to the other place: nothing cancels where it is near by.
+    const double half = std::sin(0.5 * east_rad);
+    const double bent = 2.0 * half * half * std::cos(to_rad);
+    const double east = std::cos(to_rad) * std::sin(east_rad);
+    const double north = std::sin(north_rad) + bent * std::sin(from_rad);
+    const double up = std::cos(north_rad) - bent * std::cos(from_rad);
+    const double aside = std::hypot(east, north);
+    const double scale = aside > 0.0 ? std::atan2(aside, up) / aside : 1.0;
     const double radius_m = kEarthRadius_m + from.height_m;
-    const double east_deg = std::remainder(to.longitude_deg - from.longitude_deg, 360.0);
-    return {glm::radians(east_deg) * std::cos(glm::radians(from.latitude_deg)) * radius_m,
-            glm::radians(to.latitude_deg - from.latitude_deg) * radius_m, to.height_m - from.height_m};
+    return {radius_m * scale * east, radius_m * scale * north, to.height_m - from.height_m};
+}
+
+double axes_turn_rad(const Eye& from, const Eye& to) noexcept {
+    const double east_rad = glm::radians(std::remainder(to.longitude_deg - from.longitude_deg, 360.0));
+    return east_rad * std::sin(glm::radians(0.5 * (from.latitude_deg + to.latitude_deg)));
 }
 
 void Snapshot::resize(const MapGeometry& geometry, std::size_t probes) {
@@ -62,35 +77,59 @@ void Snapshot::clear(int tile) noexcept {
     }
 }
 
-void Snapshot::march(const CloudSource& source, int tile) noexcept {
-    const MapGeometry::Texel corner = geometry_.corner(tile);
+// In the middle of the tile that begins there.
+float Snapshot::texel_rad(const MapGeometry::Texel& corner) const noexcept {
     const auto direction = [&](int column, int row) {
         return straight(geometry_.direction(corner.column + column, corner.row + row, corner.lower));
     };
     const glm::vec3 middle = direction(kTile / 2, kTile / 2);
-    const float texel_rad = std::max(glm::length(direction(kTile / 2 + 1, kTile / 2) - middle),
-                                     glm::length(direction(kTile / 2, kTile / 2 + 1) - middle));
+    return std::max(glm::length(direction(kTile / 2 + 1, kTile / 2) - middle),
+                    glm::length(direction(kTile / 2, kTile / 2 + 1) - middle));
+}
 
+void Snapshot::put(const MapGeometry::Texel& at, const CloudSample& sample) noexcept {
+    const std::size_t to = geometry_.index(at);
+    light_[to].v = LightAndPassed::Lanes{sample.light_cd_m2.x, sample.light_cd_m2.y, sample.light_cd_m2.z,
+                                         sample.transmittance};
+    reach_m_[to] = (1.0F - sample.transmittance) * sample.distance_m;
+}
+
+void Snapshot::march(const CloudSource& source, int tile) noexcept {
+    const MapGeometry::Texel corner = geometry_.corner(tile);
     std::array<CloudRay, kTileTexels> rays;
     std::array<CloudSample, kTileTexels> samples;
-    for (int i = 0; i < kTileTexels; ++i)
-        rays[static_cast<std::size_t>(i)].direction_enu = direction(i % kTile, i / kTile);
-    source.march(rays, frozen_.range, texel_rad, samples);
+    for (int i = 0; i < kTileTexels; ++i) {
+        rays[static_cast<std::size_t>(i)].direction_enu =
+            straight(geometry_.direction(corner.column + i % kTile, corner.row + i / kTile, corner.lower));
+    }
+    source.march(rays, frozen_.range, texel_rad(corner), samples);
     if (std::all_of(samples.begin(), samples.end(),
                     [](const CloudSample& sample) { return sample == kNoCloud; })) {
         clear(tile);
         return;
     }
-    for (int i = 0; i < kTileTexels; ++i) {
-        const CloudSample& sample = samples[static_cast<std::size_t>(i)];
-        const std::size_t to =
-            geometry_.index({corner.column + i % kTile, corner.row + i / kTile, corner.lower});
-        light_[to].v = LightAndPassed::Lanes{sample.light_cd_m2.x, sample.light_cd_m2.y, sample.light_cd_m2.z,
-                                             sample.transmittance};
-        reach_m_[to] = (1.0F - sample.transmittance) * sample.distance_m;
-    }
+    for (int i = 0; i < kTileTexels; ++i)
+        put({corner.column + i % kTile, corner.row + i / kTile, corner.lower},
+            samples[static_cast<std::size_t>(i)]);
     tiles_[static_cast<std::size_t>(tile)] = Tile::kCloud;
     holds_clear_[static_cast<std::size_t>(tile)] = 0;
+}
+
+void Snapshot::march_part(const CloudSource& source, const MapGeometry::Texel& corner) noexcept {
+    std::array<CloudRay, kPart * kPart> rays;
+    std::array<CloudSample, kPart * kPart> samples;
+    const auto texel = [&](int i) {
+        return MapGeometry::Texel{corner.column + i % kPart, corner.row + i / kPart, corner.lower};
+    };
+    for (int i = 0; i < kPart * kPart; ++i) {
+        const MapGeometry::Texel at = texel(i);
+        rays[static_cast<std::size_t>(i)].direction_enu =
+            straight(geometry_.direction(at.column, at.row, at.lower));
+    }
+    const MapGeometry::Texel tile{corner.column / kTile * kTile, corner.row / kTile * kTile, corner.lower};
+    source.march(rays, frozen_.range, texel_rad(tile), samples);
+    for (int i = 0; i < kPart * kPart; ++i)
+        put(texel(i), samples[static_cast<std::size_t>(i)]);
 }
 
 void Snapshot::march_probes(const CloudSource& source, std::span<const glm::vec3> seen_enu, float ray_rad) {

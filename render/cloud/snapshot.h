@@ -33,8 +33,12 @@ struct Frozen {
     double straight_horizon_rad = 0.0;
 };
 
-/// East, north, up, metres: of an eye from another one near by, on a sphere.
+/// East, north, up of the first eye, metres: of another one near by, along the ground of a sphere and up.
+/// Poles are places as any other.
 [[nodiscard]] glm::dvec3 eye_offset_m(const Eye& from, const Eye& to) noexcept;
+/// By how much east and north of one eye stand turned against those of another one near by: little but near
+/// poles.
+[[nodiscard]] double axes_turn_rad(const Eye& from, const Eye& to) noexcept;
 
 class Snapshot {
   public:
@@ -50,6 +54,9 @@ class Snapshot {
     /// Fills a tile. One that a few wide rays find empty is clear. Any number of tiles at a time, each by one
     /// thread.
     void march(const CloudSource& source, int tile) noexcept;
+    /// Fills a part of a tile of a map that is only asked for seen(): its square of kPart texels.
+    void march_part(const CloudSource& source, const MapGeometry::Texel& corner) noexcept;
+    static constexpr int kPart = 8;
     /// Follows some directions, near clouds too, for the eye's adaptation.
     void march_probes(const CloudSource& source, std::span<const glm::vec3> seen_enu, float ray_rad);
     /// Works out how far the clouds are, smoothly over directions; to be called when tiles are done.
@@ -59,6 +66,11 @@ class Snapshot {
     [[nodiscard]] const Frozen& frozen() const noexcept { return frozen_; }
     [[nodiscard]] Tile tile(int index) const noexcept { return tiles_[static_cast<std::size_t>(index)]; }
     [[nodiscard]] std::span<const CloudSample> probes() const noexcept { return probes_; }
+    /// Of all texels: four floats of each; distance times opacity. For the loops of tile_tone.h.
+    [[nodiscard]] const float* light_and_passed() const noexcept {
+        return reinterpret_cast<const float*>(light_.data());
+    }
+    [[nodiscard]] const float* reach_m() const noexcept { return reach_m_.data(); }
 
     /// What another eye sees. \param direction  components whose sizes sum to 1 \param inverse_m  over the
     /// distance, as inverse_distance() has it \param offset_m  of that eye
@@ -104,6 +116,8 @@ class Snapshot {
     void gather_tile(int tile) noexcept;
     void spread() noexcept;
     void clear(int tile) noexcept;
+    [[nodiscard]] float texel_rad(const MapGeometry::Texel& corner) const noexcept;
+    void put(const MapGeometry::Texel& at, const CloudSample& sample) noexcept;
     [[nodiscard]] glm::vec3 straight(const glm::vec3& seen) const noexcept;
 
     MapGeometry geometry_;

@@ -1,5 +1,4 @@
 #define SKYIG_CLOUD_ISA avx2
-#define SKYIG_CLOUD_LANES 8
 #define SKYIG_CLOUD_ISA_NAME "avx2"
 
 #include "render/cloud/tile_tone.h"

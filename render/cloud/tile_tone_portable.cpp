@@ -1,5 +1,4 @@
 #define SKYIG_CLOUD_ISA portable
-#define SKYIG_CLOUD_LANES 4
 #define SKYIG_CLOUD_ISA_NAME "portable"
 
 #include "render/cloud/tile_tone.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/weather_area.h"
+
 namespace skyig::render::fog {
 
 namespace {
@@ -39,7 +41,7 @@ struct Ramp {
 
 Ramp ramp_of(const Obscurant& o) noexcept {
     const double top_m = std::max(o.top_m, o.base_m);
-    const double share = o.area ? area_share(*o.area) : 1.0;
+    const double share = o.area ? area_weight(*o.area, glm::dvec2{0.0}) : 1.0;
     return {o.base_m - std::max(o.bottom_band_m, 0.0), o.base_m, top_m, top_m + std::max(o.top_band_m, 0.0),
             share * mean_extinction_per_m(o)};
 }
@@ -57,16 +59,6 @@ double mean_extinction_per_m(const Obscurant& o) noexcept {
     const double cell_m = std::clamp(std::max(o.top_m - o.base_m, 0.0) + 0.5 * bands_m, 1.0, kPatch_m);
     const double lost = -std::expm1(-std::max(o.extinction_per_m, 0.0) * cell_m);
     return -std::log1p(-coverage * lost) / cell_m;
-}
-
-double area_share(const WeatherArea& area, const glm::dvec2& place_m) noexcept {
-    const glm::dvec2 from = place_m - area.centre_m;
-    const glm::dvec2 along{std::sin(area.axis_rad), std::cos(area.axis_rad)};
-    const glm::dvec2 own{std::abs(glm::dot(from, along)), std::abs(from.x * along.y - from.y * along.x)};
-    const double outside_m =
-        glm::length(glm::max(own - area.half_size_m, glm::dvec2{0.0})) - area.corner_radius_m;
-    if (outside_m <= 0.0) return 1.0;
-    return outside_m < area.perimeter_m ? 1.0 - outside_m / area.perimeter_m : 0.0;
 }
 
 void Profile::lay(std::span<const Obscurant> obscurants, double ground_m) noexcept {

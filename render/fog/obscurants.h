@@ -30,10 +30,6 @@ struct Optics {
 /// layer that is the mean over the ground; along it, over many patches. Whole coverage: its own, exactly.
 [[nodiscard]] double mean_extinction_per_m(const Obscurant& obscurant) noexcept;
 
-/// Part of the weather that the area has at a place, 0..1: 1 inside, falling linearly over the perimeter.
-/// \param place_m  east and north of the eye
-[[nodiscard]] double area_share(const WeatherArea& area, const glm::dvec2& place_m = {}) noexcept;
-
 /// All obscurants in one profile: shells in which extinction is linear with height, from the ground up,
 /// without gaps. Each counts by what its area has of it at the eye: a bank that the eye is not in is not
 /// seen. Bands below 0 count as 0, a top below its base as the base.

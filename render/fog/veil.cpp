@@ -275,7 +275,7 @@ shaders64::VeilBeams Veil::beams(const glm::dvec3& direction_enu) const noexcept
 shaders64::VeilSum Veil::sum(const glm::dvec3& direction_enu, double end_m) const noexcept {
     // Of what lies behind this nothing is seen.
     constexpr double kOpaque = 60.0;
-    shaders64::VeilSum sum{0.0, 0.0, glm::dvec3{0.0}, 0.0};
+    shaders64::VeilSum sum = shaders64::veil_none();
     const shaders64::VeilRay ray{direction_enu.z, eye_radius_m_};
     const shaders64::VeilBeams lit = beams(direction_enu);
     if (!std::isfinite(ray.sine) || !(end_m > 0.0)) return sum;
@@ -292,10 +292,9 @@ Veil::Seen Veil::seen(const glm::dvec3& direction_enu, double end_m) const noexc
 }
 
 Veil::Both Veil::along(const glm::dvec3& direction_enu, double distance_m, double end_m) const noexcept {
-    constexpr shaders64::VeilSum kNothing{0.0, 0.0, glm::dvec3{0.0}, 0.0};
     const shaders64::VeilRay ray{direction_enu.z, eye_radius_m_};
     const shaders64::VeilBeams lit = beams(direction_enu);
-    Both both{kNothing, kNothing};
+    Both both{shaders64::veil_none(), shaders64::veil_none()};
     if (!std::isfinite(ray.sine) || !(distance_m > 0.0)) return both;
     each_short_piece(segments(), ray, end_m, [&](const Segment& s, double from_m, double to_m) {
         const double at_m = std::clamp(distance_m, from_m, to_m);

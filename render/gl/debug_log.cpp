@@ -7,6 +7,8 @@ namespace skyig::render::gl {
 struct DebugLog::State {
     std::uint64_t errors = 0;
     std::string first;
+    /// Messages have told of what glGetError() still holds.
+    bool told = false;
 };
 
 namespace {
@@ -15,6 +17,7 @@ void APIENTRY on_message(GLenum, GLenum type, GLuint, GLenum, GLsizei length, co
                          const void* user) {
     if (type != GL_DEBUG_TYPE_ERROR && type != GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR) return;
     auto* state = static_cast<DebugLog::State*>(const_cast<void*>(user));
+    state->told = state->told || type == GL_DEBUG_TYPE_ERROR;
     if (state->errors++ == 0) state->first.assign(text, static_cast<std::size_t>(length));
 }
 
@@ -33,13 +36,18 @@ DebugLog::~DebugLog() {
 std::uint64_t DebugLog::errors() {
     // A context without the debug flag may stay silent in debug output, but not here.
     while (const GLenum error = glGetError()) {
-        if (state_->errors++ == 0) state_->first = "GL error " + std::to_string(error);
+        if (!state_->told && state_->errors++ == 0) state_->first = "GL error " + std::to_string(error);
     }
+    state_->told = false;
     return state_->errors;
 }
 
 std::string DebugLog::first_message() const {
     return state_->first;
+}
+
+void inject_error() {
+    glEnable(GL_NONE);
 }
 
 }  // namespace skyig::render::gl

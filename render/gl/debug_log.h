@@ -26,4 +26,7 @@ class DebugLog {
     std::unique_ptr<State> state_;
 };
 
+/// Makes an error in the current context by a call that no OpenGL takes, for tests and drills.
+void inject_error();
+
 }  // namespace skyig::render::gl

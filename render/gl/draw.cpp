@@ -38,6 +38,10 @@ void set_clip_distances(int count) {
     }
 }
 
+void see_what_is_drawn() {
+    glTextureBarrier();
+}
+
 void finish() {
     glFinish();
 }

@@ -16,6 +16,10 @@ void set_blend(Blend blend);
 /// How many of gl_ClipDistance clip, at most 3; none in the common state.
 void set_clip_distances(int count);
 
+/// Shaders that follow see in the bound framebuffer's texture what has been drawn so far. One may write the
+/// texel that it has read itself, if no other does (OpenGL 4.5, 9.3.1).
+void see_what_is_drawn();
+
 /// Blocks until all commands so far are executed.
 void finish();
 

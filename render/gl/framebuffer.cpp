@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <stdexcept>
@@ -37,6 +38,9 @@ Framebuffer::Framebuffer(int width_px, int height_px, PixelFormat format)
     }
     glCreateTextures(GL_TEXTURE_2D, 1, &texture_);
     glTextureStorage2D(texture_, 1, internal_format(format), width_px, height_px);
+    glTextureParameteri(texture_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(texture_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(texture_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glCreateFramebuffers(1, &framebuffer_);
     glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, texture_, 0);
     if (glCheckNamedFramebufferStatus(framebuffer_, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
@@ -74,6 +78,38 @@ Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
 void Framebuffer::bind() const {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_);
     glViewport(0, 0, width_px_, height_px_);
+}
+
+void Framebuffer::copy_into(Framebuffer& picture, int repeat_across, int repeat_upright, bool mirror_across,
+                            bool mirror_upright) const {
+    const int right_px = width_px_ * repeat_across;
+    const int top_px = height_px_ * repeat_upright;
+    const int x0 = mirror_across ? picture.width_px_ : 0;
+    const int y0 = mirror_upright ? picture.height_px_ : 0;
+    glBlitNamedFramebuffer(framebuffer_, picture.framebuffer_, 0, 0, width_px_, height_px_, x0, y0,
+                           mirror_across ? x0 - right_px : right_px, mirror_upright ? y0 - top_px : top_px,
+                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void Framebuffer::cross_out() {
+    constexpr std::array<GLfloat, 4> kGround{0.25F, 0.0F, 0.0F, 1.0F};
+    constexpr std::array<GLfloat, 4> kCross{0.9F, 0.0F, 0.0F, 1.0F};
+    glClearNamedFramebufferfv(framebuffer_, GL_COLOR, 0, kGround.data());
+    // Both diagonals in steps, of blocks that overlap.
+    constexpr int kSteps = 64;
+    constexpr int kBlocks = 24;
+    const int wide_px = std::max(1, width_px_ / kBlocks);
+    const int tall_px = std::max(1, height_px_ / kBlocks);
+    glEnable(GL_SCISSOR_TEST);
+    for (int i = 0; i < kSteps; ++i) {
+        const int left_px = i * (width_px_ - wide_px) / (kSteps - 1);
+        const int low_px = i * (height_px_ - tall_px) / (kSteps - 1);
+        for (const int bottom_px : {low_px, height_px_ - tall_px - low_px}) {
+            glScissor(left_px, bottom_px, wide_px, tall_px);
+            glClearNamedFramebufferfv(framebuffer_, GL_COLOR, 0, kCross.data());
+        }
+    }
+    glDisable(GL_SCISSOR_TEST);
 }
 
 void Framebuffer::read_rgba8(std::span<std::byte> top_down) {

@@ -23,6 +23,13 @@ class Framebuffer {
     /// Draws go here from now on.
     void bind() const;
 
+    /// Writes this picture into another, each pixel as a block of so many from the lower left corner on (what
+    /// reaches beyond is cut off), and that mirrored as asked.
+    void copy_into(Framebuffer& picture, int repeat_across, int repeat_upright, bool mirror_across,
+                   bool mirror_upright) const;
+    /// A red cross on dark red: this picture cannot be drawn. Needs no program.
+    void cross_out();
+
     /// Width * height * 4 bytes, top row first. Waits for the pixels.
     void read_rgba8(std::span<std::byte> top_down);
     /// Width * height * 3 floats, top row first; of an 8-bit picture 0..1. Waits for the pixels.

@@ -19,6 +19,7 @@ Mesh::Mesh(std::initializer_list<int> components, std::size_t max_vertices) {
         offset += static_cast<GLuint>(static_cast<std::size_t>(count) * sizeof(float));
         ++location;
     }
+    stride_bytes_ = offset;
     capacity_bytes_ = std::size_t{offset} * max_vertices;
     glNamedBufferStorage(vertices_, static_cast<GLsizeiptr>(std::max<std::size_t>(capacity_bytes_, 4)),
                          nullptr, GL_DYNAMIC_STORAGE_BIT);
@@ -36,6 +37,7 @@ Mesh::Mesh(Mesh&& other) noexcept
     : array_(std::exchange(other.array_, 0U)),
       vertices_(std::exchange(other.vertices_, 0U)),
       indices_(std::exchange(other.indices_, 0U)),
+      stride_bytes_(other.stride_bytes_),
       capacity_bytes_(other.capacity_bytes_),
       index_capacity_bytes_(other.index_capacity_bytes_) {}
 
@@ -43,6 +45,7 @@ Mesh& Mesh::operator=(Mesh&& other) noexcept {
     std::swap(array_, other.array_);
     std::swap(vertices_, other.vertices_);
     std::swap(indices_, other.indices_);
+    std::swap(stride_bytes_, other.stride_bytes_);
     std::swap(capacity_bytes_, other.capacity_bytes_);
     std::swap(index_capacity_bytes_, other.index_capacity_bytes_);
     return *this;
@@ -60,9 +63,12 @@ void Mesh::set_indices(std::span<const std::uint32_t> indices) {
     glNamedBufferSubData(indices_, 0, static_cast<GLsizeiptr>(indices.size_bytes()), indices.data());
 }
 
-void Mesh::update(std::span<const float> vertices) {
-    const std::size_t bytes = std::min(vertices.size_bytes(), capacity_bytes_);
-    if (bytes > 0) glNamedBufferSubData(vertices_, 0, static_cast<GLsizeiptr>(bytes), vertices.data());
+void Mesh::update(std::span<const float> vertices, std::size_t first) {
+    const std::size_t offset = std::min(first * stride_bytes_, capacity_bytes_);
+    const std::size_t bytes = std::min(vertices.size_bytes(), capacity_bytes_ - offset);
+    if (bytes > 0)
+        glNamedBufferSubData(vertices_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
+                             vertices.data());
 }
 
 void Mesh::draw_triangles(std::size_t first, std::size_t count) const {

@@ -21,8 +21,8 @@ class Mesh {
 
     /// Triangles, three indices each. Storage is made anew only when it must grow.
     void set_indices(std::span<const std::uint32_t> indices);
-    /// Replaces the vertices from the first on; at most max_vertices.
-    void update(std::span<const float> vertices);
+    /// Replaces the vertices from `first` on; at most max_vertices.
+    void update(std::span<const float> vertices, std::size_t first = 0);
 
     /// `count` indices from the `first` on.
     void draw_triangles(std::size_t first, std::size_t count) const;
@@ -33,6 +33,7 @@ class Mesh {
     unsigned array_ = 0;
     unsigned vertices_ = 0;
     unsigned indices_ = 0;
+    std::size_t stride_bytes_ = 0;
     std::size_t capacity_bytes_ = 0;
     std::size_t index_capacity_bytes_ = 0;
 };

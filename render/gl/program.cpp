@@ -36,8 +36,11 @@ std::string resolve(std::string_view path, int depth) {
 
 class Shader {
   public:
-    Shader(GLenum stage, std::string_view path) : id_(glCreateShader(stage)) {
-        const std::string source = resolve(path, 0);
+    Shader(GLenum stage, std::string_view path, Placement placement = Placement::kFlat)
+        : id_(glCreateShader(stage)) {
+        std::string source = resolve(path, 0);
+        // After the first line, which tells the version.
+        if (placement == Placement::kWarped) source.insert(source.find('\n') + 1, "#define SKYIG_WARPED\n");
         const char* text = source.c_str();
         glShaderSource(id_, 1, &text, nullptr);
         glCompileShader(id_);
@@ -62,8 +65,8 @@ class Shader {
 
 }  // namespace
 
-Program::Program(std::string_view vertex, std::string_view fragment) {
-    const Shader vert(GL_VERTEX_SHADER, vertex);
+Program::Program(std::string_view vertex, std::string_view fragment, Placement placement) {
+    const Shader vert(GL_VERTEX_SHADER, vertex, placement);
     const Shader frag(GL_FRAGMENT_SHADER, fragment);
     id_ = glCreateProgram();
     glAttachShader(id_, vert.id());

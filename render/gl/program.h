@@ -6,11 +6,14 @@
 
 namespace skyig::render::gl {
 
+/// Whether vertex shaders take what they draw to where a warped channel shows it. \see common/place.glsl
+enum class Placement { kFlat, kWarped };
+
 class Program {
   public:
     /// \param vertex, fragment  names as in render/shaders, e.g. "sky/dome.vert"; `#include "x.glsl"` is
     /// resolved \throws std::runtime_error with the file and the driver's text
-    Program(std::string_view vertex, std::string_view fragment);
+    Program(std::string_view vertex, std::string_view fragment, Placement placement = Placement::kFlat);
     ~Program();
     Program(Program&& other) noexcept;
     Program& operator=(Program&& other) noexcept;

@@ -135,7 +135,8 @@ void StreakField::carry(const Scene& scene) noexcept {
     }
 }
 
-void StreakField::update(const Scene& scene) noexcept {
+void StreakField::update(const Scene& scene, double density) noexcept {
+    density_ = density;
     carry(scene);
     group_count_ = 0;
     count_ = 0;
@@ -173,7 +174,7 @@ void StreakField::fill_shell(const Fall& fall, const Shell& shell) noexcept {
     const Look& look = look_of(fall.kind);
     const double middle_m = 1.5 * shell.from_m;
     const double box_m = 4.0 * shell.from_m;
-    const double places = static_cast<double>(kFirstShellPlaces << shell.index) * look.share *
+    const double places = density_ * static_cast<double>(kFirstShellPlaces << shell.index) * look.share *
                           std::min(1.0, std::sqrt(fall.extinction_per_m / kDense_per_m)) *
                           std::min(1.0, std::pow(kShort_m / fall.length_m, 0.8));
     // What the shell's drops dim, spread over what its rods cover of all directions: the mean over the shell

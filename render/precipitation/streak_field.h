@@ -37,8 +37,9 @@ class StreakField {
 
     /// Follows the frame: everything moves by scene time and by the eye's own way over the Earth (in double,
     /// wrapped), and stands while both stand. After a jump of the clock it goes on from where it was.
-    /// Depends on the scenes that it was shown alone. Allocates nothing, never throws.
-    void update(const Scene& scene) noexcept;
+    /// Depends on the scenes that it was shown alone. Allocates nothing, never throws. \param density  part
+    /// of the streaks that are drawn, 0..1: fewer, and the more opaque
+    void update(const Scene& scene, double density = 1.0) noexcept;
 
     struct Group {
         Precipitation::Kind kind = Precipitation::Kind::kRain;
@@ -68,6 +69,7 @@ class StreakField {
     /// How far its flakes have whirled, in turns.
     double whirl_ = 0.0;
     double time_s_ = 0.0;
+    double density_ = 1.0;
     bool started_ = false;
 };
 

@@ -13,6 +13,7 @@ using rvec2 = glm::vec2;
 using rvec3 = glm::vec3;
 using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, glm::exp, glm::sqrt, glm::sin,
     glm::cos, glm::tan, glm::asin, glm::dot, glm::length, glm::abs, glm::floor;
+#include "render/shaders/cloud/before.glsl"
 #include "render/shaders/cloud/map.glsl"
 #include "render/shaders/common/angle.glsl"
 #include "render/shaders/eye/tone.glsl"
@@ -33,6 +34,7 @@ using rvec2 = glm::dvec2;
 using rvec3 = glm::dvec3;
 using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, glm::exp, glm::sqrt, glm::sin,
     glm::cos, glm::tan, glm::asin, glm::dot, glm::length, glm::abs, glm::floor;
+#include "render/shaders/cloud/before.glsl"
 #include "render/shaders/cloud/map.glsl"
 #include "render/shaders/common/angle.glsl"
 #include "render/shaders/eye/tone.glsl"

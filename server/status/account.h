@@ -52,6 +52,9 @@ struct Account {
     double age_s = 0.0;
 };
 
+/// "cloud-motion left out: a frame took 97 % of its time"; empty before the first step.
+[[nodiscard]] std::string thinning_reason(const Thinning& thinning);
+
 /// The report's keys, and what stands beside them while the daemon runs.
 [[nodiscard]] std::string to_json(const Account& account);
 

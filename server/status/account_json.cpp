@@ -17,11 +17,11 @@ Json recent_json(const RecentFrames& recent) {
             {"median_ms", recent.median_ms}, {"p95_ms", recent.p95_ms}, {"largest_ms", recent.largest_ms}};
 }
 
-Json late_json(const FrameRecord& record) {
-    Json json = Json::object();
-    for (std::size_t i = 0; i < kLateCauses; ++i)
-        json[std::string(kLateCauseNames[i])] = record.late(static_cast<LateCause>(i));
-    return json;
+Json overload_json(const Account& account) {
+    const Thinning& thinning = account.snapshot.thinning;
+    return {{"order", account.facts.thinning_order},   {"thinned", account.report.thinned},
+            {"times_thinned", thinning.times_thinned}, {"times_returned", thinning.times_returned},
+            {"exhausted", thinning.exhausted},         {"reason", thinning_reason(thinning)}};
 }
 
 /// Heights above the ellipsoid. Zeros of visibility, aerosol and wind: told none.
@@ -134,6 +134,18 @@ Json authority_json(const Account& account) {
     return json;
 }
 
+Json channels_json(const Account& account) {
+    Json json = Json::array();
+    for (std::size_t i = 0; i < account.facts.channels.size(); ++i) {
+        const ChannelHealth& health = account.snapshot.health[i];
+        json.push_back({{"name", account.facts.channels[i]},
+                        {"failed", health.failed},
+                        {"failures", health.failures},
+                        {"last_failure", health.reason()}});
+    }
+    return json;
+}
+
 Json plan_json(const Snapshot& snapshot) {
     Json json = Json::array();
     for (std::size_t i = 0; i < snapshot.pass_count; ++i) {
@@ -161,13 +173,14 @@ std::string to_json(const Account& account) {
     json["age_s"] = account.age_s;
     json["health"] = {{"ok", account.health.good}, {"text", account.health.text}};
     json["recent"] = recent_json(account.snapshot.record.recent());
-    json["late_by_cause"] = late_json(account.snapshot.record);
-    json["channels"] = account.facts.channels;
+    json["pace"] = account.facts.pace;
+    json["overload"] = overload_json(account);
     json["world"] = world_json(account.facts, account.snapshot.world);
     json["sources"] = Json::array();
     for (std::size_t i = 0; i < account.facts.sources.size(); ++i)
         json["sources"].push_back(source_json(account, i));
     json["authority"] = authority_json(account);
+    json["channels"] = channels_json(account);
     json["plan"] = plan_json(account.snapshot);
     json["recorder"] = recorder_json(account.recorder);
     json["status_port"] = {{"connections", account.port.connections},

@@ -41,6 +41,14 @@ void add_frames(MetricsText& out, const Account& account) {
     out.family("skyig_late_frames_total", "counter", "Frames that began late, by what held them up.");
     for (std::size_t i = 0; i < kLateCauses; ++i)
         out.sample({{"cause", kLateCauseNames[i]}}, number(record.late(static_cast<LateCause>(i))));
+    counter(out, "skyig_host_timeouts_total", "Frames that went on without the host's answer.",
+            snapshot.host_timeouts);
+    out.family("skyig_thinned", "gauge", "1 for what frames leave out for the frame rate's sake.");
+    for (std::size_t i = 0; i < config::kThinningNames.size(); ++i)
+        out.sample({{"what", config::kThinningNames[i]}}, number(snapshot.thinning.thinned >> i & 1U));
+    out.family("skyig_thinning_steps_total", "counter", "Times that something was left out, and came back.");
+    out.sample({{"step", "thinned"}}, number(snapshot.thinning.times_thinned));
+    out.sample({{"step", "returned"}}, number(snapshot.thinning.times_returned));
     counter(out, "skyig_slots_left_out_total", "Frame periods that passed without a frame.",
             snapshot.slots_left_out);
     out.family("skyig_frame_seconds", "histogram", "Work of one frame.");
@@ -59,9 +67,24 @@ void add_frames(MetricsText& out, const Account& account) {
         out.sample({{"stage", row.name}, {"statistic", "p95"}}, row.p95_ms * kMsToS);
         out.sample({{"stage", row.name}, {"statistic", "largest"}}, row.largest_ms * kMsToS);
     }
+    out.family("skyig_delay_seconds", "gauge",
+               "From a message's arrival to its picture, and how evenly the host's messages come.");
+    for (const DelayRow& row : account.report.delays) {
+        out.sample({{"until", row.name}, {"statistic", "median"}}, row.median_ms * kMsToS);
+        out.sample({{"until", row.name}, {"statistic", "p99"}}, row.p99_ms * kMsToS);
+        out.sample({{"until", row.name}, {"statistic", "largest"}}, row.largest_ms * kMsToS);
+    }
+    gauge(out, "skyig_gl_objects", "OpenGL objects at the last count.", number(snapshot.gl_objects));
     out.family("skyig_pass_needed", "gauge", "Whether the last frame's plan needs the pass.");
     for (std::size_t i = 0; i < snapshot.pass_count; ++i)
         out.sample({{"pass", snapshot.passes[i].name}}, snapshot.passes[i].needed ? 1.0 : 0.0);
+    const auto& channels = account.facts.channels;
+    out.family("skyig_channel_failed", "gauge", "1 while the channel cannot be drawn.");
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        out.sample({{"channel", channels[i]}}, snapshot.health[i].failed ? 1.0 : 0.0);
+    out.family("skyig_channel_failures_total", "counter", "Times that the channel could not be drawn.");
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        out.sample({{"channel", channels[i]}}, number(snapshot.health[i].failures));
     counter(out, "skyig_gl_errors_total", "OpenGL errors.", snapshot.gl_errors);
     counter(out, "skyig_gl_resets_total", "Resets of the graphics device, all made anew after each.",
             snapshot.gl_resets);

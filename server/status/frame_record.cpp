@@ -16,14 +16,28 @@ double quantile(const float* sorted, std::size_t count, double q) noexcept {
 }  // namespace
 
 LateCause late_cause(const FrameParts& parts, double period_s) noexcept {
-    if (static_cast<double>(parts.duration_ns()) * 1e-9 <= period_s) return LateCause::kStart;
+    const auto fits = [period_s](std::int64_t duration_ns) {
+        return static_cast<double>(duration_ns) * 1e-9 <= period_s;
+    };
+    if (fits(parts.duration_ns())) return LateCause::kMachine;
+    if (fits(parts.work_ns()))
+        return parts.host_ns > parts.display_ns ? LateCause::kHost : LateCause::kDisplay;
+    // Work in one thread or in many takes no longer than all of them together.
+    if (parts.processor_ns && fits(*parts.processor_ns)) return LateCause::kMachine;
     const std::array<std::int64_t, 4> durations{parts.input_ns, parts.shared_ns, parts.channels_ns,
                                                 parts.output_ns};
-    return static_cast<LateCause>(std::max_element(durations.begin(), durations.end()) - durations.begin());
+    const auto longest =
+        static_cast<LateCause>(std::max_element(durations.begin(), durations.end()) - durations.begin());
+    return longest == LateCause::kShared && parts.rebuilt ? LateCause::kRebuild : longest;
 }
 
 void FrameRecord::add(const FrameParts& parts, bool late, double period_s) noexcept {
-    if (late) ++late_[static_cast<std::size_t>(late_cause(last_, period_s))];
+    if (late) {
+        const bool fitted = static_cast<double>(last_.duration_ns()) * 1e-9 <= period_s;
+        if (!fitted || !last_late_) last_cause_ = late_cause(last_, period_s);
+        ++late_[static_cast<std::size_t>(last_cause_)];
+    }
+    last_late_ = late;
     last_ = parts;
     const std::int64_t duration_ns = parts.duration_ns();
     kept_[count_ % kKept] = {parts.start_ns, static_cast<float>(static_cast<double>(duration_ns) * 1e-6),

@@ -18,6 +18,30 @@ TimeRow row(std::string_view name, const Times& times) {
     return {std::string(name), times.median_ms, times.p95_ms, times.largest_ms};
 }
 
+DelayRow row(std::string_view name, const Delay& delay) {
+    return {std::string(name), delay.count, delay.median_ms, delay.p99_ms, delay.largest_ms};
+}
+
+void add_pacing(const Facts& facts, const Snapshot& snapshot, RunReport& report) {
+    for (std::size_t i = 0; i < kLateCauses; ++i) {
+        report.late_by_cause.push_back(
+            {std::string(kLateCauseNames[i]), snapshot.record.late(static_cast<LateCause>(i))});
+    }
+    for (std::size_t i = 0; i < facts.channels.size(); ++i)
+        report.delays.push_back(row(facts.channels[i], snapshot.delays[i]));
+    report.delays.push_back(row("shown", snapshot.delay_shown));
+    report.delays.push_back(row("host interval", snapshot.host_interval));
+    report.delays.push_back(row("host jitter", snapshot.host_jitter));
+    report.host_timeouts = snapshot.host_timeouts;
+    for (std::size_t i = 0; i < config::kThinningNames.size(); ++i) {
+        if ((snapshot.thinning.thinned >> i & 1U) != 0)
+            report.thinned.emplace_back(config::kThinningNames[i]);
+    }
+    report.times_thinned = snapshot.thinning.times_thinned;
+    report.times_returned = snapshot.thinning.times_returned;
+    report.gl_objects = snapshot.gl_objects;
+}
+
 void add_host(const Snapshot& snapshot, RunReport& report) {
     const world::Link& link = snapshot.sources[snapshot.control_source].link;
     if (link.state != world::LinkState::kWaiting) {
@@ -80,6 +104,7 @@ RunReport make_report(const Facts& facts, const Snapshot& snapshot) {
     report.earth_orientation = facts.earth_orientation;
     report.date_clamped = snapshot.date_clamped;
     report.leap_seconds_assumed = snapshot.leap_seconds_assumed;
+    add_pacing(facts, snapshot, report);
     add_host(snapshot, report);
     add_counts(snapshot, report);
     return report;

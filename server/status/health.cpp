@@ -24,7 +24,21 @@ Health health_of(const Facts& facts, const Snapshot& snapshot, std::int64_t now_
     const RecentFrames recent = snapshot.record.recent();
     if (recent.frames >= kFewFrames && 2 * recent.late > recent.frames)
         return {false, fmt::format("{} of the last {} frames were late", recent.late, recent.frames)};
+    for (std::size_t i = 0; i < facts.channels.size(); ++i) {
+        const ChannelHealth& channel = snapshot.health[i];
+        if (channel.failed)
+            return {false,
+                    fmt::format("channel {} cannot be drawn: {}", facts.channels[i], channel.reason())};
+    }
     return {true, "ok"};
+}
+
+std::string thinning_reason(const Thinning& thinning) {
+    if (!thinning.any_step) return {};
+    return fmt::format("{} {}: a frame took {:.0f} % of its time{}",
+                       config::kThinningNames[thinning.last_thing],
+                       thinning.last_thinned ? "left out" : "is back", thinning.last_load * 100.0,
+                       thinning.exhausted ? "; nothing more can be left out" : "");
 }
 
 }  // namespace skyig::server::status

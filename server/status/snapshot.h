@@ -19,6 +19,7 @@
 #include "protocol/flightgear/net_fdm.h"
 #include "protocol/transport/udp.h"
 #include "server/ephemeris/time.h"
+#include "server/status/channel_health.h"
 #include "server/status/frame_record.h"
 #include "server/status/pass_state.h"
 #include "server/world/state.h"
@@ -32,6 +33,26 @@ struct Times {
     double median_ms = 0.0;
     double p95_ms = 0.0;
     double largest_ms = 0.0;
+};
+
+struct Delay {
+    std::uint64_t count = 0;
+    double median_ms = 0.0;
+    double p99_ms = 0.0;
+    double largest_ms = 0.0;
+};
+
+/// What frames leave out for the frame rate's sake, by the numbers of config::Thinning.
+struct Thinning {
+    std::uint64_t thinned = 0;
+    std::uint64_t times_thinned = 0;
+    std::uint64_t times_returned = 0;
+    bool exhausted = false;
+    /// The last step: what, whether it was left out by it, and what part of the period a frame had taken.
+    bool any_step = false;
+    bool last_thinned = false;
+    std::size_t last_thing = 0;
+    double last_load = 0.0;
 };
 
 struct FlightGearCounts {
@@ -87,6 +108,18 @@ struct Snapshot {
     Times shared;
     Times frame;
     std::array<Times, config::kMaxChannels> channels{};
+    std::array<ChannelHealth, config::kMaxChannels> health{};
+
+    /// From a message's arrival in the kernel until each channel is finished, until all have been handed on.
+    std::array<Delay, config::kMaxChannels> delays{};
+    Delay delay_shown;
+    /// Of the host in control: from one message to the next; by how much they come late.
+    Delay host_interval;
+    Delay host_jitter;
+    /// Frames that went on without the host's answer.
+    std::uint64_t host_timeouts = 0;
+    Thinning thinning;
+    std::size_t gl_objects = 0;
 
     WorldState world;
     std::array<PassState, kMostPasses> passes{};
@@ -134,6 +167,10 @@ struct Facts {
     /// What draws, for people.
     std::string renderer;
     double rate_hz = 0.0;
+    /// "clock", "display", "host".
+    std::string pace;
+    /// What may be left out, in order.
+    std::vector<std::string> thinning_order;
     /// In the order of the settings.
     std::vector<std::string> channels;
     /// The host first.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "render/weather_ramp.h"
+
 namespace skyig::server::weather {
 
 LayerState mix(const LayerState& from, const LayerState& to, double t) noexcept {
@@ -13,8 +15,9 @@ LayerState mix(const LayerState& from, const LayerState& to, double t) noexcept 
     mixed.thickness_m = between(&LayerState::thickness_m);
     mixed.bottom_band_m = between(&LayerState::bottom_band_m);
     mixed.top_band_m = between(&LayerState::top_band_m);
-    mixed.coverage = between(&LayerState::coverage);
-    mixed.extinction_per_m = between(&LayerState::extinction_per_m);
+    mixed.coverage = render::between<render::CoverScale>(from.coverage, to.coverage, t);
+    mixed.extinction_per_m =
+        render::between<render::ExtinctionScale>(from.extinction_per_m, to.extinction_per_m, t);
     mixed.rate_mm_h = between(&LayerState::rate_mm_h);
     mixed.severity = between(&LayerState::severity);
     mixed.bottom_scud = between(&LayerState::bottom_scud);

@@ -60,7 +60,7 @@ struct ToldLayer {
     double distance_m = 0.0;
 };
 
-/// Part `t` of the way, member by member.
+/// Part `t` of the way, member by member; coverage and extinction on the scales of render/weather_ramp.h.
 [[nodiscard]] LayerState mix(const LayerState& from, const LayerState& to, double t) noexcept;
 
 /// The layer as it begins and ends: clouds without coverage, the others without extinction and rate.

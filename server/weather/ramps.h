@@ -45,10 +45,10 @@ struct ShownLayer {
     bool ends = false;
 };
 
-/// Linear in scene time over `transition_s`; a new layer grows from nothing, one that is told no more goes to
-/// nothing and is forgotten. Areas move and grow alike, but for those that an entity carries: they are where
-/// it is. What layers cover of each other at the eye is limited to the same pace. Depends on what is told and
-/// on scene time alone. Allocates at construction only.
+/// Even in scene time over `transition_s` (weather_ramp.h); a new layer grows from nothing, one that is told
+/// no more goes to nothing and is forgotten. Areas move and grow alike, but for those that an entity carries:
+/// they are where it is. What layers cover of each other at the eye is limited to the same pace. Depends on
+/// what is told and on scene time alone. Allocates at construction only.
 class Ramps {
   public:
     /// Told layers and those that end.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "render/weather_area.h"
+#include "render/weather_ramp.h"
 #include "server/start_weather/layers.h"
 #include "server/weather/day_keyframes.h"
 
@@ -125,14 +126,15 @@ void WeatherBuilder::settle_air(render::Scene& scene, bool at_once) noexcept {
     render::Air& air = scene.air;
     const double depth = -std::log(air.visibility_contrast);
     const double told_per_m = depth / std::max(air.visibility_m, 1.0);
+    using Scale = render::ExtinctionScale;
     if (at_once) {
-        air_per_m_.set(told_per_m);
+        air_place_.set(Scale::place_of(told_per_m));
     } else {
-        air_per_m_.aim(told_per_m, *time_s_, settings_.transition_s);
+        air_place_.aim(Scale::place_of(told_per_m), *time_s_, settings_.transition_s);
     }
     // A settled visibility goes through untouched.
-    if (!air_per_m_.settled(scene.time_s, settings_.transition_s))
-        air.visibility_m = depth / air_per_m_.at(scene.time_s, settings_.transition_s);
+    if (!air_place_.settled(scene.time_s, settings_.transition_s))
+        air.visibility_m = depth / Scale::value_at(air_place_.at(scene.time_s, settings_.transition_s));
     if (!air.model_enabled || air.visibility_m >= kThickestAir_m) return;
     Obscurant& fog = scene.weather.obscurants[scene.weather.obscurant_count++];
     fog = {};

@@ -66,7 +66,7 @@ class WeatherBuilder {
     Gatherer gatherer_;
     Ramps ramps_;
     Drifts drifts_;
-    Glide air_per_m_{0.0};
+    Glide air_place_{0.0};  // on render::ExtinctionScale
     std::array<std::uint8_t, Ramps::kMost> order_{};
     std::array<double, Ramps::kMost> distance_m_{};
     std::optional<double> time_s_;

@@ -8,11 +8,11 @@ bool Events::enable(std::uint16_t event_id, bool enable) noexcept {
     return true;
 }
 
-bool Events::raise(Event event, std::uint32_t data_1, std::uint32_t data_2) noexcept {
+bool Events::raise(Event event, std::uint32_t data_1, std::uint32_t data_2, std::uint32_t data_3) noexcept {
     const auto id = static_cast<std::uint16_t>(event);
     if (!enabled_[id]) return true;
     if (count_ == kMostWaiting) return false;
-    waiting_[(first_ + count_++) % kMostWaiting] = {id, data_1, data_2, 0};
+    waiting_[(first_ + count_++) % kMostWaiting] = {id, data_1, data_2, data_3};
     return true;
 }
 

@@ -10,7 +10,7 @@
 namespace skyig::server::world {
 
 /// The ids on the wire; docs/protocols.md tells what their data words hold.
-enum class Event : std::uint16_t { kSourceHeard = 1, kSourceLost = 2, kClockSet = 3 };
+enum class Event : std::uint16_t { kSourceHeard = 1, kSourceLost = 2, kClockSet = 3, kFrameFinished = 4 };
 
 /// Off until the host enables them, one by one. Allocates nothing.
 class Events {
@@ -21,7 +21,7 @@ class Events {
     bool enable(std::uint16_t event_id, bool enable) noexcept;
 
     /// To be told if enabled. \return false when it was lost: too many wait
-    bool raise(Event event, std::uint32_t data_1, std::uint32_t data_2) noexcept;
+    bool raise(Event event, std::uint32_t data_1, std::uint32_t data_2, std::uint32_t data_3 = 0) noexcept;
 
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
     /// The first; only while not empty.
@@ -32,7 +32,7 @@ class Events {
 
   private:
     /// By id.
-    std::array<bool, 4> enabled_{};
+    std::array<bool, 5> enabled_{};
     std::array<protocol::cigi::EventNotification, kMostWaiting> waiting_{};
     std::size_t first_ = 0;
     std::size_t count_ = 0;

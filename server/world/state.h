@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <string_view>
 
+#include "config/pattern.h"
 #include "protocol/transport/endpoint.h"
 #include "server/ephemeris/sky_state.h"
 #include "server/world/authority.h"
@@ -85,10 +86,13 @@ struct View {
     std::uint8_t group_id = 0;
     ViewPose pose;
     HalfAngles half_angles;
-    /// As the host wants it; not drawn yet. 0 none, 1 horizontal, 2 vertical, 3 both.
+    /// 0 none, 1 horizontal, 2 vertical, 3 both.
     std::uint8_t mirror_mode = 0;
-    /// As the host wants it; not drawn yet.
+    /// 0 none, 1 each pixel two high, 2 two wide, 3 both.
+    std::uint8_t pixel_replication = 0;
     bool orthographic = false;
+    /// Shown in place of the sky.
+    config::Pattern pattern = config::Pattern::kOff;
 };
 
 /// A source and who speaks for it, as it stands now.
@@ -104,34 +108,33 @@ struct Link {
 
 /// What was refused or ignored by the world, each by its reason (what the decoder refuses is counted there).
 struct Counters {
-    std::uint64_t second_host = 0;        ///< messages of a host that is not the one its source obeys
-    std::uint64_t not_in_charge = 0;      ///< data of which another source has the say
-    std::uint64_t no_host = 0;            ///< packets of a source without any valid IG Control yet
-    std::uint64_t standby_ignored = 0;    ///< packets other than IG Control in Standby
-    std::uint64_t late_ignored = 0;       ///< packets of a message that newer ones have overtaken
-    std::uint64_t frames_missed = 0;      ///< host messages that never came
-    std::uint64_t entity_full = 0;        ///< no room for another entity
-    std::uint64_t entity_unknown = 0;     ///< rates of an entity that is not there
-    std::uint64_t rate_refused = 0;       ///< rates of a part, or such as no craft has
-    std::uint64_t earth_refused = 0;      ///< an ellipsoid too far from WGS84
-    std::uint64_t ownship_attached = 0;   ///< the ownship attached to a parent: its offsets mean nothing here
-    std::uint64_t position_refused = 0;   ///< ownship outside the heights that are drawn
-    std::uint64_t clock_refused = 0;      ///< a date and time that does not exist
-    std::uint64_t air_refused = 0;        ///< values of the air that no sky has: those stay as they were
-    std::uint64_t unknown_view = 0;       ///< a view id that no channel has
-    std::uint64_t view_entity = 0;        ///< a view carried by another entity than the ownship
-    std::uint64_t view_offset = 0;        ///< an eye further than config::kMaxOffset_m from what carries it
-    std::uint64_t frustum_refused = 0;    ///< half angles that leave no picture
-    std::uint64_t orthographic = 0;       ///< parallel projection: not drawn
-    std::uint64_t mirrored = 0;           ///< mirror mode: not drawn
-    std::uint64_t weather_full = 0;       ///< no room for another region or layer
-    std::uint64_t surface_full = 0;       ///< no room for another sea, wave or condition of the ground
-    std::uint64_t surface_entity = 0;     ///< sea, waves or ground that hang on an entity
-    std::uint64_t component_unknown = 0;  ///< a component that is not there, or a state that it has not
-    std::uint64_t request_unknown = 0;    ///< the place of something that is not there is asked
-    std::uint64_t request_full = 0;       ///< more requests wait than can be kept
-    std::uint64_t event_lost = 0;         ///< more events wait than can be kept
-    std::uint64_t ig_message_lost = 0;    ///< lines that Debug mode has left out
+    std::uint64_t second_host = 0;       ///< messages of a host that is not the one its source obeys
+    std::uint64_t not_in_charge = 0;     ///< data of which another source has the say
+    std::uint64_t no_host = 0;           ///< packets of a source without any valid IG Control yet
+    std::uint64_t standby_ignored = 0;   ///< packets other than IG Control in Standby
+    std::uint64_t late_ignored = 0;      ///< packets of a message that newer ones have overtaken
+    std::uint64_t frames_missed = 0;     ///< host messages that never came
+    std::uint64_t entity_full = 0;       ///< no room for another entity
+    std::uint64_t entity_unknown = 0;    ///< rates of an entity that is not there
+    std::uint64_t rate_refused = 0;      ///< rates of a part, or such as no craft has
+    std::uint64_t earth_refused = 0;     ///< an ellipsoid too far from WGS84
+    std::uint64_t ownship_attached = 0;  ///< the ownship attached to a parent: its offsets mean nothing here
+    std::uint64_t position_refused = 0;  ///< ownship outside the heights that are drawn
+    std::uint64_t clock_refused = 0;     ///< a date and time that does not exist
+    std::uint64_t air_refused = 0;       ///< values of the air that no sky has: those stay as they were
+    std::uint64_t unknown_view = 0;      ///< a view id that no channel has
+    std::uint64_t view_entity = 0;       ///< a view carried by another entity than the ownship
+    std::uint64_t view_offset = 0;       ///< an eye further than config::kMaxOffset_m from what carries it
+    std::uint64_t frustum_refused = 0;   ///< half angles that leave no picture
+    std::uint64_t replication_refused = 0;  ///< a pixel replication that no standard says
+    std::uint64_t weather_full = 0;         ///< no room for another region or layer
+    std::uint64_t surface_full = 0;         ///< no room for another sea, wave or condition of the ground
+    std::uint64_t surface_entity = 0;       ///< sea, waves or ground that hang on an entity
+    std::uint64_t component_unknown = 0;    ///< a component that is not there, or a state that it has not
+    std::uint64_t request_unknown = 0;      ///< the place of something that is not there is asked
+    std::uint64_t request_full = 0;         ///< more requests wait than can be kept
+    std::uint64_t event_lost = 0;           ///< more events wait than can be kept
+    std::uint64_t ig_message_lost = 0;      ///< lines that Debug mode has left out
 
     friend bool operator==(const Counters&, const Counters&) = default;
 };
@@ -161,8 +164,7 @@ inline constexpr std::array kCounterNames{
     NamedCounter{"view_entity", &Counters::view_entity},
     NamedCounter{"view_offset", &Counters::view_offset},
     NamedCounter{"frustum_refused", &Counters::frustum_refused},
-    NamedCounter{"orthographic", &Counters::orthographic},
-    NamedCounter{"mirrored", &Counters::mirrored},
+    NamedCounter{"replication_refused", &Counters::replication_refused},
     NamedCounter{"weather_full", &Counters::weather_full},
     NamedCounter{"surface_full", &Counters::surface_full},
     NamedCounter{"surface_entity", &Counters::surface_entity},

@@ -15,6 +15,7 @@ View view_of(const config::Channel& channel) {
                  channel.pitch_deg,
                  channel.roll_deg};
     view.half_angles = {channel.left_deg, channel.right_deg, channel.bottom_deg, channel.top_deg};
+    view.pattern = channel.pattern;
     return view;
 }
 
@@ -84,13 +85,31 @@ ViewResult Views::apply(const protocol::cigi::ViewDefinition& definition) noexce
     if (definition.bottom_enable) wanted.bottom_deg = static_cast<double>(definition.bottom);
     if (definition.top_enable) wanted.top_deg = static_cast<double>(definition.top);
     if (!leaves_a_picture(wanted)) return ViewResult::kBadFrustum;
-    // Nothing of a refused packet is taken.
-    if (!definition.projection_type) view->half_angles = wanted;
+    constexpr std::uint8_t kLastStandardReplication = 3;
+    if (definition.pixel_replication > kLastStandardReplication) return ViewResult::kReplication;
+    view->half_angles = wanted;
     view->group_id = definition.group_id;
     view->mirror_mode = definition.mirror_mode;
+    view->pixel_replication = definition.pixel_replication;
     view->orthographic = definition.projection_type;
-    if (view->orthographic) return ViewResult::kOrthographic;
-    return view->mirror_mode == 0 ? ViewResult::kDone : ViewResult::kMirrored;
+    return ViewResult::kDone;
+}
+
+bool Views::show_pattern(std::uint16_t view_id, config::Pattern pattern) noexcept {
+    View* view = find(view_id);
+    if (view == nullptr) return false;
+    view->pattern = pattern;
+    return true;
+}
+
+bool Views::show_pattern_in_group(std::uint8_t group_id, config::Pattern pattern) noexcept {
+    bool any = false;
+    for (View& view : views_) {
+        if (group_id != 0 && view.group_id != group_id) continue;
+        view.pattern = pattern;
+        any = true;
+    }
+    return any;
 }
 
 }  // namespace skyig::server::world

@@ -20,8 +20,7 @@ enum class ViewResult : std::uint8_t {
     kOtherEntity,
     kFarAway,  ///< an enabled offset beyond config::kMaxOffset_m
     kBadFrustum,
-    kOrthographic,  ///< stored, picture unchanged
-    kMirrored,      ///< the rest is done, the mirror stored but not drawn
+    kReplication,  ///< a pixel replication of 4..7, which the standard leaves to each image generator
 };
 
 class Views {
@@ -33,9 +32,15 @@ class Views {
 
     /// Enabled parts replace what the view (or, with a group id, the group) had; the others stay.
     ViewResult apply(const protocol::cigi::ViewControl& control) noexcept;
-    /// Group membership, mirror and projection always; half angles where enabled, all or none, and only if
-    /// they leave a picture together with those that stay. Near and far planes mean nothing to a sky.
+    /// Group membership, mirror, pixel replication and projection always; half angles where enabled, all or
+    /// none, and only if they leave a picture together with those that stay. Near and far planes mean nothing
+    /// to a sky, and it has one type of view. Nothing of a refused packet is taken.
     ViewResult apply(const protocol::cigi::ViewDefinition& definition) noexcept;
+
+    /// \return false when there is no such view
+    bool show_pattern(std::uint16_t view_id, config::Pattern pattern) noexcept;
+    /// In all views of a group, 0: in all views. \return false when there are none
+    bool show_pattern_in_group(std::uint8_t group_id, config::Pattern pattern) noexcept;
 
     /// In the order of the configured channels.
     [[nodiscard]] std::span<const View> all() const noexcept { return views_; }

@@ -224,6 +224,8 @@ void World::reset() {
 void World::set_start_weather() noexcept {
     air_ = configured_air(start_weather_.air);
     weather_.clear();
+    for (const cigi::EnvRegionControl& region : start_weather_.regions)
+        if (!weather_.set(region)) ++counters_.weather_full;
     for (const cigi::WeatherControl& layer : start_weather_.layers)
         if (!weather_.set(layer)) ++counters_.weather_full;
 }
@@ -299,10 +301,9 @@ void World::note_view(ViewResult result, std::uint16_t view_id) {
                 return {&Counters::view_offset, "its offset is out of reach"};
             case ViewResult::kBadFrustum:
                 return {&Counters::frustum_refused, "its half angles leave no picture"};
-            case ViewResult::kOrthographic:
-                return {&Counters::orthographic, "parallel projection is not supported, its picture stays"};
-            case ViewResult::kMirrored:
-                return {&Counters::mirrored, "mirror mode is not supported, its picture is not mirrored"};
+            case ViewResult::kReplication:
+                return {&Counters::replication_refused,
+                        "pixel replication 4 to 7 is not drawn: 0 none, 1 two high, 2 two wide, 3 both"};
             case ViewResult::kDone:
                 break;
         }
@@ -320,7 +321,7 @@ void World::advance(double step_s) {
     time_s_ += step_s;
     // What came before this step came at its start: the same instant is drawn.
     own_.track.advance(elapsed_s_);
-    static_cast<Pose&>(ownship_) = own_.track.at(elapsed_s_);
+    static_cast<Pose&>(ownship_) = own_.track.at(elapsed_s_ + ahead_s_);
     if (own_.clamped) ownship_.position.height_m = sea_height_m(ownship_.position);
     for (Entity& entity : entities_.all())
         entity.mover.track.advance(elapsed_s_);

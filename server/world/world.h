@@ -78,6 +78,10 @@ class World {
     /// Moves time on by `step_s` >= 0: clock, link supervision.
     void advance(double step_s);
 
+    /// From here on the ownship is where it will be so much later than the frame begins, as far as its motion
+    /// is known; 0 at first. For the time that a frame takes until it is seen.
+    void look_ahead(double ahead_s) noexcept { ahead_s_ = ahead_s; }
+
     /// Whether the current message came from the host in control (known after its IG Control).
     [[nodiscard]] bool from_obeyed_host() const noexcept {
         return verdict_ != Verdict::kNoControl && verdict_ != Verdict::kOtherHost &&
@@ -146,6 +150,7 @@ class World {
     /// \return false when there is no such component
     [[nodiscard]] bool switch_sky(const protocol::cigi::ComponentControl& packet) noexcept;
     [[nodiscard]] bool switch_weather(const protocol::cigi::ComponentControl& packet) noexcept;
+    [[nodiscard]] bool switch_pattern(const protocol::cigi::ComponentControl& packet) noexcept;
     void raise(Event event, std::uint32_t data_1, std::uint32_t data_2) noexcept;
     /// False if another host of the same source has it.
     [[nodiscard]] bool claim_peer(const protocol::cigi::PacketInfo& info);
@@ -220,6 +225,7 @@ class World {
     double elapsed_s_ = 0.0;
     /// The instant that is drawn: what comes after it comes at elapsed_s_.
     double drawn_s_ = 0.0;
+    double ahead_s_ = 0.0;
 };
 
 }  // namespace skyig::server::world

@@ -12,6 +12,8 @@ constexpr std::uint16_t kSun = 0;
 constexpr std::uint16_t kMoon = 1;
 constexpr std::uint16_t kStars = 2;
 constexpr std::uint16_t kClock = 3;
+/// Of classes 1 and 2, view and view group: the test pattern, whose number is the state.
+constexpr std::uint16_t kTestPattern = 0;
 /// Of class 6, regional layered weather: the region, and the layer that data word 1 tells.
 constexpr std::uint16_t kRegion = 0;
 constexpr std::uint16_t kRegionLayer = 1;
@@ -21,6 +23,9 @@ constexpr double kRepeatAfter_s = 10.0;
 /// Whose word counts: a component is part of what an aspect holds.
 std::optional<config::Aspect> aspect_of(cigi::ComponentClass component_class) noexcept {
     switch (component_class) {
+        case cigi::ComponentClass::kView:
+        case cigi::ComponentClass::kViewGroup:
+            return config::Aspect::kViews;
         case cigi::ComponentClass::kRegionalLayeredWeather:
         case cigi::ComponentClass::kGlobalLayeredWeather:
         case cigi::ComponentClass::kAtmosphere:
@@ -158,11 +163,23 @@ bool World::switch_weather(const cigi::ComponentControl& packet) noexcept {
                                  static_cast<std::uint8_t>(packet.data_1), on);
 }
 
+bool World::switch_pattern(const cigi::ComponentControl& packet) noexcept {
+    if (packet.component_id != kTestPattern || packet.component_state >= config::kPatternNames.size())
+        return false;
+    const auto pattern = static_cast<config::Pattern>(packet.component_state);
+    if (packet.component_class == cigi::ComponentClass::kView)
+        return views_.show_pattern(packet.instance_id, pattern);
+    return packet.instance_id <= 255 &&
+           views_.show_pattern_in_group(static_cast<std::uint8_t>(packet.instance_id), pattern);
+}
+
 void World::operator()(const cigi::ComponentControl& packet) {
     const std::optional<config::Aspect> aspect = aspect_of(packet.component_class);
     if (aspect ? !obeys(*aspect) : !may_ask()) return;
     bool known = packet.component_state <= 1;
-    if (known && aspect == config::Aspect::kWeather) {
+    if (aspect == config::Aspect::kViews) {
+        known = switch_pattern(packet);
+    } else if (known && aspect == config::Aspect::kWeather) {
         known = switch_weather(packet);
     } else if (known && aspect == config::Aspect::kTime) {
         known = switch_sky(packet);

@@ -1,7 +1,7 @@
 // What a channel costs, as a multiple of "a write": a full-screen triangle with a literal colour into RGBA8
 // of the same size, drawn in turn with it in the same run. Medians of wall time, and of the processor time of
 // all threads, which other work on the machine touches less.
-//   frame_bench [ROUNDS [clouds]]     default 60; clouds: those alone
+//   frame_bench [ROUNDS [clouds | patterns]]     default 60; with a word: those alone
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -233,11 +233,14 @@ void print_clouds(const std::string& name, Scene scene, double pitch_deg, std::s
 void print_all_clouds(int rounds) {
     const Scene overcast = clouded(500.0, CloudGenus::kStratus, CloudModel::kLayer, 1.0);
     const Scene broken = clouded(500.0, CloudGenus::kCumulus, CloudModel::kVolume, 0.5);
+    const Scene above = clouded(4000.0, CloudGenus::kCumulus, CloudModel::kVolume, 0.4);
     const Scene inside = clouded(1700.0, CloudGenus::kStratus, CloudModel::kVolume, 1.0);
     for (const std::size_t channels : {std::size_t{1}, std::size_t{3}}) {
         print_clouds("overcast layer", overcast, 20.0, channels, rounds);
         print_clouds("broken volume", broken, 20.0, channels, rounds);
         print_clouds("in cloud", inside, 5.0, channels, rounds);
+        print_clouds("broken, above", above, -20.0, channels, rounds);
+        print_clouds("broken, below", broken, -10.0, channels, rounds);
     }
 }
 
@@ -282,6 +285,32 @@ void print_all_that_falls(int rounds) {
         print_falling("snow", snow, speed_m_s, 90.0, rounds);
 }
 
+// Test patterns in place of a clear day's sky; and what texts, a mirror and pixels that repeat add to it.
+void print_over_pictures(int rounds) {
+    Scene plain = tests::make_scene(30.0, 120.0, -30.0, 200.0, 300.0);
+    look_at(plain, 175.0, 8.0, 60.0);
+    std::vector<NamedView> cases;
+    for (std::size_t i = 0; i < kPatternCount; ++i) {
+        cases.push_back({std::string(kPatternNames[i]), plain});
+        cases.back().scene.views[0].pattern = static_cast<Pattern>(i);
+    }
+    cases.push_back({"texts", plain});
+    for (OverlayLine& line : cases.back().scene.overlay.lines)
+        line.say("operate 2026-06-21 12:00:00Z, 60.0 Hz");
+    cases.back().scene.overlay.warning.say("HOST LOST");
+    cases.back().scene.views[0].overlay = kShowsWarning | 0b111;
+    cases.push_back({"mirrored", plain});
+    cases.back().scene.views[0].showing = {.mirrored_across = true};
+    cases.push_back({"repeated 2x2", plain});
+    cases.back().scene.views[0].showing = {.repeat_across = 2, .repeat_upright = 2};
+    Renderer renderer({{"only", kWidth, kHeight}}, {});
+    for (const NamedView& each : cases) {
+        const Costs costs = measure(renderer, each.scene, rounds);
+        std::printf("%-14s %.2f writes, of cpu %.2f\n", each.name.c_str(), median(costs.ratio),
+                    median(costs.processor_ratio));
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -289,7 +318,10 @@ int main(int argc, char** argv) {
     const gl::HeadlessContext context = gl::HeadlessContext::create(false);
     std::printf("%s, %dx%d, medians of %d rounds\n", context.description().c_str(), kWidth, kHeight, rounds);
     if (argc > 2) {
-        print_all_clouds(rounds);
+        if (std::string(argv[2]) == "patterns")
+            print_over_pictures(rounds);
+        else
+            print_all_clouds(rounds);
         return 0;
     }
     std::printf("%-14s %9s %9s %9s %9s %11s %9s %6s\n", "scene", "write ms", "draw ms", "writes", "of cpu",
@@ -307,5 +339,6 @@ int main(int argc, char** argv) {
     print_deferred(tests::four_times()[1].scene, rounds);
     print_all_clouds(rounds);
     print_all_that_falls(rounds);
+    print_over_pictures(rounds);
     return 0;
 }

@@ -52,7 +52,7 @@ class ReplayVerb : public ::testing::Test {
         server::Recorder recorder(scratch_.file("rig.pcapng"), config, server::tests::facts(config));
         for (std::uint64_t i = 1; i <= 3; ++i) {
             const std::int64_t now_ns = kStartNs + static_cast<std::int64_t>(i) * 1000 * kMs;
-            recorder.mark({i, 1, now_ns}, bytes_of("answer"));
+            recorder.mark({i, 1, 0, now_ns}, bytes_of("answer"));
             if (i == 3) continue;
             recorder.datagram(0, {kHost, now_ns, bytes_of(fmt::format("h{}", i))});
             recorder.datagram(1, {kInstructor, now_ns, bytes_of(fmt::format("i{}", i))});

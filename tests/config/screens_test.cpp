@@ -47,6 +47,37 @@ TEST(Screens, AScreenThatCanShowNothingAboveItsBlackIsRefused) {
     EXPECT_TRUE(errors_of(with("[display]\nmax_luminance_cd_m2 = 100\nreflected_cd_m2 = 99")).empty());
 }
 
+TEST(Screens, ChannelsShowAPatternByName) {
+    const auto pattern_of = [](const std::string& key) {
+        const LoadResult result = parse_config(with("") + key, "site.toml");
+        EXPECT_TRUE(result);
+        return result ? result.config->channels[0].pattern : Pattern::kOff;
+    };
+    EXPECT_EQ(pattern_of(""), Pattern::kOff);
+    for (std::size_t i = 0; i < kPatternNames.size(); ++i)
+        EXPECT_EQ(pattern_of("pattern = \"" + std::string(kPatternNames[i]) + "\""), static_cast<Pattern>(i));
+    const ConfigError error = error_of(with("") + "pattern = \"cheker\"");
+    EXPECT_EQ(error.key, "channel[1].pattern");
+    EXPECT_THAT(error.message, HasSubstr("checker"));
+    Config config = default_config();
+    show_pattern(config, "grid");
+    EXPECT_EQ(config.channels[0].pattern, Pattern::kGrid);
+    show_pattern(config, "nonsense");
+    EXPECT_EQ(config.channels[0].pattern, Pattern::kGrid);
+}
+
+TEST(Screens, ChannelsOverlayIsAVariantOfTheUsualOne) {
+    const LoadResult result = parse_config(
+        with("[overlay]\nmode = true\nhost_lost = true") + "[channel.overlay]\nmode = false\nscale = 4",
+        "site.toml");
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result.config->overlay, (Overlay{.mode = true, .host_lost = true}));
+    EXPECT_EQ(result.config->channels[0].overlay, (Overlay{.host_lost = true, .scale = 4}));
+    EXPECT_EQ(parse_config(with(""), "site.toml").config->overlay, Overlay{});
+    EXPECT_THAT(error_of(with("[overlay]\nscale = 9")).message, HasSubstr("1..8"));
+    EXPECT_EQ(error_of(with("[overlay]\nclock = true")).key, "overlay.clock");
+}
+
 TEST(Quality, IsGivenInCodesOrInPercent) {
     const LoadResult result = parse_config(with("[quality]\nerror_pct = 3.4"), "site.toml");
     ASSERT_TRUE(result);

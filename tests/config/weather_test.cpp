@@ -69,6 +69,61 @@ TEST(Weather, WhatIsWrongIsToldWithItsKey) {
                 HasSubstr("did you mean \"storm\"?"));
 }
 
+constexpr std::string_view kArea =
+    "[[weather.area]]\nlatitude_deg = 47.5\nlongitude_deg = 8.5\nhalf_length_m = 20000\n";
+
+std::string area_with(std::string_view lines) {
+    return with(fmt::format("{}{}\n", kArea, lines));
+}
+
+constexpr std::string_view kAreaLayer =
+    "[[weather.area.layer]]\ntype = \"rain\"\ntop_m = 900\nrate_mm_h = 4\n";
+
+TEST(Weather, AnAreaHoldsLayersOfItsOwn) {
+    const Config config = good(
+        fmt::format("{}{}half_width_m = 9000\ncorner_radius_m = 9000\nrotation_deg = 30\nperimeter_m = 4000\n"
+                    "merge = true\nid = 7\n{}{}{}",
+                    kLayer, kArea, kAreaLayer, kArea, kAreaLayer));
+    ASSERT_EQ(config.weather.layers.size(), 1U);
+    ASSERT_EQ(config.weather.areas.size(), 2U);
+    const WeatherArea& first = config.weather.areas[0];
+    EXPECT_EQ(first.id.value_or(0), 7);
+    EXPECT_DOUBLE_EQ(first.latitude_deg, 47.5);
+    EXPECT_DOUBLE_EQ(first.longitude_deg, 8.5);
+    EXPECT_DOUBLE_EQ(first.half_length_m, 20e3);
+    EXPECT_DOUBLE_EQ(first.half_width_m, 9e3);
+    EXPECT_DOUBLE_EQ(first.corner_radius_m, 9e3);
+    EXPECT_DOUBLE_EQ(first.rotation_deg, 30.0);
+    EXPECT_DOUBLE_EQ(first.perimeter_m, 4e3);
+    EXPECT_TRUE(first.merge);
+    ASSERT_EQ(first.layers.size(), 1U);
+    EXPECT_EQ(first.layers[0].type, LayerType::kRain);
+    const WeatherArea& second = config.weather.areas[1];
+    EXPECT_DOUBLE_EQ(second.half_width_m, 20e3) << "a square where no width is told";
+    EXPECT_FALSE(second.id);
+    EXPECT_THAT(describe(config), HasSubstr(", weather of 1 layer and 2 areas"));
+}
+
+TEST(Weather, WhatIsWrongInAnAreaIsToldWithItsKey) {
+    EXPECT_EQ(error_of(area_with("")).key, "weather.area[1].layer");
+    EXPECT_EQ(error_of(area_with("[[weather.area.layer]]\ntype = \"rain\"\n")).key,
+              "weather.area[1].layer[1].top_m");
+    EXPECT_EQ(error_of(area_with(fmt::format("corner_radius_m = 21000\n{}", kAreaLayer))).key,
+              "weather.area[1].corner_radius_m");
+    EXPECT_THAT(error_of(area_with(fmt::format("half_widht_m = 9\n{}", kAreaLayer))).message,
+                HasSubstr("half_width_m"));
+    EXPECT_EQ(error_of(with("[[weather.area]]\nlatitude_deg = 1\nlongitude_deg = 2\n[[weather.area.layer]]\n"
+                            "type = \"rain\"\ntop_m = 900\n"))
+                  .key,
+              "weather.area[1].half_length_m");
+    const std::string one = fmt::format("{}id = 3\n{}", kArea, kAreaLayer);
+    EXPECT_EQ(error_of(with(one + one)).key, "weather.area[2].id");
+    std::string many;
+    for (int i = 0; i < 33; ++i)
+        many += fmt::format("{}{}", kArea, kAreaLayer);
+    EXPECT_THAT(error_of(with(many)).message, HasSubstr("makes 33; at most 32"));
+}
+
 TEST(Weather, TheFilesOwnTablesComeOverThePresets) {
     const Config config =
         good(fmt::format("[weather]\npreset = \"scattered\"\n{}[air]\nvisibility_m = 22000\n", kLayer));

@@ -146,6 +146,23 @@ TEST_F(Allocation, NorDoFramesWithAnotherRenderersPicture) {
     }
 }
 
+TEST_F(Allocation, NorDoPatternsTextsAndTurnedPictures) {
+    const std::vector<Channel> channels{{"pattern", 64, 64}, {"turned", 64, 64}, {"parallel", 64, 64}};
+    Scene scene = four_times()[1].scene;
+    for (int i = 0; i < 3; ++i)
+        add_view(scene, symmetric_frustum(30.0, 64, 64), view_from_enu(180.0, 10.0, 0.0));
+    scene.views[0].pattern = Pattern::kGrid;
+    scene.views[1].showing = {.mirrored_across = true, .repeat_across = 2, .repeat_upright = 2};
+    scene.views[2].showing = {.parallel = true};
+    scene.overlay.lines[0].say("operate");
+    scene.overlay.warning.say("HOST LOST");
+    for (ChannelView& view : scene.views)
+        view.overlay = kShowsWarning | 1U;
+    Flight flight(channels, scene);
+    flight.frames(kWarmUpFrames);
+    EXPECT_EQ(flight.frames(100), 0);
+}
+
 TEST(FrameAllocation, CloudsAreFollowedAndTonedWithoutAny) {
     const FakeSheet sheet{};
     Scene scene = make_scene(48.0, 185.0, -10.0, 40.0, 2500.0);

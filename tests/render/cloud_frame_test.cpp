@@ -45,7 +45,8 @@ TEST(CloudMapGeometry, PlacesAndDirectionsAreInverseAndTheRimIsCommon) {
 TEST(CloudMapGeometry, SizeGoesByTheFinestPixelAndWhatIsSeen) {
     std::vector<ChannelView> one{{symmetric_frustum(30.0, 1280, 1024), view_from_enu(0.0, 0.0, 0.0)}};
     EXPECT_EQ(cloud::map_size_for(9.0e-4, one), 1024);
-    EXPECT_EQ(cloud::map_size_for(2.0e-3, one), 512);
+    EXPECT_EQ(cloud::map_size_for(1.8e-3, one), 1024) << "640 pixels";
+    EXPECT_EQ(cloud::map_size_for(3.6e-3, one), 512);
     EXPECT_EQ(cloud::map_size_for(4.0e-4, one), 2048);
     EXPECT_EQ(cloud::map_size_for(9.0e-4, std::vector<ChannelView>(3, one[0])), 1024);
     EXPECT_EQ(cloud::map_size_for(9.0e-4, std::vector<ChannelView>(8, one[0])), 512);
@@ -219,12 +220,7 @@ TEST(CloudMapSchedule, TheOrderOfLayersMovesNothingAndALeapOfTheEyeBeginsAnew) {
     EXPECT_GT(frame.clouds().map().rays_marched(), 30000);
 }
 
-TEST(CloudLightning, LightsTheCloudsNearTheFlashWhileItLasts) {
-    const FakeSheet sheet{.height_m = 3000.0,
-                          .wavelength_m = 0.0,
-                          .least_transmittance = 0.0,
-                          .most_transmittance = 0.0,
-                          .light_cd_m2 = glm::vec3{0.0F}};
+void flash_lights(const FakeSheet& sheet) {
     Scene scene = make_scene(-40.0, 0.0, -40.0, 90.0, 500.0);
     add_view(scene, symmetric_frustum(60.0, 640, 512), view_from_enu(0.0, 60.0, 0.0));
     add_layer(scene, sheet);
@@ -232,7 +228,8 @@ TEST(CloudLightning, LightsTheCloudsNearTheFlashWhileItLasts) {
     // The first flash over the eye.
     const auto overhead = [](const cloud::Flashes& flashes) {
         return std::any_of(flashes.all().begin(), flashes.all().end(), [](const cloud::Flash& flash) {
-            return flash.intensity_cd > 1e6 && glm::length(glm::dvec2{flash.place_m}) < 2000.0;
+            return flash.intensity_cd > 1e6 && glm::length(glm::dvec2{flash.place_m}) < 2000.0 &&
+                   flash.place_m.z > 100.0;
         });
     };
     for (int i = 0; i < 20000 && !overhead(cloud::flashes_at(scene)); ++i)
@@ -267,6 +264,18 @@ TEST(CloudLightning, LightsTheCloudsNearTheFlashWhileItLasts) {
     EXPECT_GT(lit_code, dark_code + 0.2F);
 }
 
+TEST(CloudLightning, LightsTheCloudsNearTheFlashWhileItLasts) {
+    flash_lights({.height_m = 3000.0,
+                  .wavelength_m = 0.0,
+                  .least_transmittance = 0.0,
+                  .most_transmittance = 0.0,
+                  .light_cd_m2 = glm::vec3{0.0F}});
+}
+
+TEST(CloudLightning, LightsTheCloudsRoundTheEye) {
+    flash_lights({.light_cd_m2 = glm::vec3{0.0F}, .fog_per_m = 0.05});
+}
+
 TEST(CloudAdaptation, IsToWhatIsSeenOfCloudsToo) {
     for (const AdaptationSource source : {AdaptationSource::kSky, AdaptationSource::kViewMean}) {
         DisplaySettings display;
@@ -282,7 +291,8 @@ TEST(CloudAdaptation, IsToWhatIsSeenOfCloudsToo) {
         std::printf("clear %.0f cd/m2, in fog of 700: %.1f\n", clear.adaptation_cd_m2(),
                     frame.adaptation_cd_m2());
         EXPECT_GT(clear.adaptation_cd_m2(), 1500.0);
-        EXPECT_NEAR(frame.adaptation_cd_m2(), 700.0, 7.0);
+        // The sunlit air of the nearest metres is before it.
+        EXPECT_NEAR(frame.adaptation_cd_m2(), 700.0, 14.0);
     }
 }
 

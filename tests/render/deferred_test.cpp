@@ -8,12 +8,15 @@
 #include <cstdio>
 #include <limits>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "render/cloud/field/field_maker.h"
 #include "render/gl/texture.h"
 #include "render/sky/geometry.h"
 #include "render/sky/ray_light.h"
 #include "render/sky_frame.h"
+#include "tests/render/fake_clouds.h"
 #include "tests/render/gl_fixture.h"
 
 namespace skyig::render {
@@ -240,6 +243,139 @@ TEST_F(Deferred, AFarRidgeTendsToTheHorizonSky) {
         last = step;
     }
     EXPECT_LE(last, 2);
+}
+
+// A wall of one light across the view, among clouds of one height.
+class AmongClouds : public Deferred {
+  protected:
+    static constexpr double kWall_cd_m2 = 900.0;
+
+    Picture wall_at(Renderer& renderer, const Scene& scene, double distance_m) {
+        const ChannelView& view = scene.views[0];
+        gl::Texture colour{gl::TexelFormat::kRgba32F, kWidth, kHeight};
+        gl::Texture depth{gl::TexelFormat::kR32F, kWidth, kHeight};
+        colour.update(std::vector<float>(std::size_t{kWidth} * kHeight * 4, static_cast<float>(kWall_cd_m2)));
+        std::vector<float> z;
+        for (int y = kHeight - 1; y >= 0; --y) {
+            for (int x = 0; x < kWidth; ++x) {
+                const double along = -(view.view_from_enu * direction_at(view, x, y)).z;
+                z.push_back(static_cast<float>(distance_m * along / kFar_m));
+            }
+        }
+        depth.update(z);
+        return draw_over(renderer, scene, {colour.name(), depth.name(), kFar_m});
+    }
+    /// Largest and mean distance from what the frame's own formulas say, display codes.
+    static std::pair<double, double> off(const Renderer& renderer, const Scene& scene, const Picture& picture,
+                                         double distance_m) {
+        double largest = 0.0, sum = 0.0;
+        int count = 0;
+        for (int y = 0; y < kHeight; y += 10) {
+            for (int x = 0; x < kWidth; x += 10) {
+                const glm::dvec3 direction = direction_at(scene.views[0], x, y);
+                const double codes =
+                    off_by(picture.at(x, y),
+                           renderer.reference_colour(direction, distance_m, glm::dvec3{kWall_cd_m2}));
+                largest = std::max(largest, codes);
+                sum += codes;
+                ++count;
+            }
+        }
+        return {largest, sum / count};
+    }
+};
+
+TEST_F(AmongClouds, ThingsStandBeforeInsideAndBehindThem) {
+    const FakeSheet sheet{
+        .height_m = 2500.0, .wavelength_m = 0.0, .least_transmittance = 0.1, .most_transmittance = 0.1};
+    Scene scene = make_scene(48.0, 185.0, -10.0, 40.0, 500.0);
+    scene.sun.enabled = false;
+    // Straight up: clouds are 2000 m away all over the picture, but for some per cent.
+    add_view(scene, symmetric_frustum(8.0, kWidth, kHeight), view_from_enu(150.0, 85.0, 3.0));
+    Quality quality;
+    quality.cloud_map_size = 512;
+    DisplaySettings display = undithered();
+    display.fixed_adaptation_cd_m2 = 2000.0;
+    Renderer without({{"only", kWidth, kHeight}}, display);
+    Scene clouded = scene;
+    add_layer(clouded, sheet);
+    Renderer renderer({{"only", kWidth, kHeight}}, display, quality);
+    renderer.draw_clouds(fake_clouds(sheet));
+    double last = -1.0;
+    for (const double distance_m : {300.0, 1500.0, 2005.0, 2600.0}) {
+        const Picture clear = wall_at(without, scene, distance_m);
+        const Picture picture = wall_at(renderer, clouded, distance_m);
+        const auto [largest, mean] = off(renderer, clouded, picture, distance_m);
+        const double changed =
+            difference(clear.at(kWidth / 2, kHeight / 2), picture.at(kWidth / 2, kHeight / 2));
+        std::printf(
+            "wall at %5.0f m: %.0f codes from without clouds; from the formulas %.2f at most, %.2f in the "
+            "mean\n",
+            distance_m, changed, largest, mean);
+        EXPECT_LE(largest, 1.6) << distance_m;
+        // Air under clouds is less bright.
+        EXPECT_LE(changed, distance_m < 1600.0 ? 3.0 : 255.0) << distance_m;
+        EXPECT_GE(changed, last - 2.0) << "what is farther is hidden more";
+        last = changed;
+    }
+    // The cloud's light and a tenth of the wall's.
+    EXPECT_GT(last, 40.0);
+}
+
+TEST_F(Deferred, LandLiesInTheShadowsOfSingleClouds) {
+    Scene scene = make_scene(48.0, 185.0, -40.0, 0.0, 600.0);
+    scene.sun.enabled = false;
+    add_view(scene, symmetric_frustum(25.0, kWidth, kHeight), view_from_enu(30.0, -12.0, 0.0));
+    CloudLayer& layer = scene.weather.clouds[scene.weather.cloud_count++];
+    layer.base_m = 1500.0;
+    layer.coverage = 0.5;
+    layer.seed = 4;
+    const Ground ground = draw_ground(scene, 20e3);
+    Renderer renderer({{"only", kWidth, kHeight}}, undithered());
+    renderer.draw_clouds({std::make_unique<cloud::field::FieldMaker>(), nullptr});
+    const Picture picture = draw_over(renderer, scene, ground.input());
+    DeferredInput own = ground.input();
+    own.shadows = false;
+    const Picture even = draw_over(renderer, scene, own);
+    double largest = 0.0;
+    int darker = 0, brighter = 0;
+    for (int y = 0; y < kHeight; y += 4) {
+        for (int x = 0; x < kWidth; x += 4) {
+            const Thing& thing = ground.at(x, y);
+            if (!(thing.distance_m < 15e3)) continue;
+            const glm::dvec3 direction = direction_at(scene.views[0], x, y);
+            largest = std::max(
+                largest, off_by(picture.at(x, y),
+                                renderer.reference_colour(direction, thing.distance_m, thing.rgb_cd_m2)));
+            const int step = picture.at(x, y).g - even.at(x, y).g;
+            darker = std::max(darker, -step);
+            brighter = std::max(brighter, step);
+        }
+    }
+    std::printf("shadows %d codes darker, gaps %d brighter; from the formulas %.2f codes\n", darker, brighter,
+                largest);
+    EXPECT_GT(darker, 20);
+    EXPECT_GT(brighter, 10);
+    EXPECT_LE(largest, 2.0);
+}
+
+TEST_F(AmongClouds, InFogOfCloudsThingsFadeWithTheirDistance) {
+    const FakeSheet fog{.light_cd_m2 = glm::vec3{4000.0F}, .fog_per_m = 0.01};
+    Scene scene = make_scene(48.0, 185.0, -10.0, 40.0, 500.0);
+    scene.sun.enabled = false;
+    add_view(scene, symmetric_frustum(8.0, kWidth, kHeight), view_from_enu(150.0, 20.0, 3.0));
+    add_layer(scene, fog);
+    Renderer renderer({{"only", kWidth, kHeight}}, undithered());
+    renderer.draw_clouds(fake_clouds(fog));
+    for (const double distance_m : {20.0, 100.0, 250.0}) {
+        const Picture picture = wall_at(renderer, scene, distance_m);
+        const double passed = std::exp(-0.01 * distance_m);
+        const glm::dvec3 exact = renderer.reference_colour(
+            {0.0, 0.0, 1.0}, 0.0, glm::dvec3{passed * kWall_cd_m2 + (1.0 - passed) * 4000.0});
+        const double codes = off_by(picture.at(kWidth / 2, kHeight / 2), exact);
+        std::printf("%.0f m into it: %.1f codes from Koschmieder\n", distance_m, codes);
+        EXPECT_LE(codes, 3.0) << distance_m;
+    }
 }
 
 TEST_F(Deferred, ALightThatComesOrGoesMovesNoPictureBySteps) {

@@ -336,6 +336,34 @@ TEST(Plan, WavesAreDrawnWhereThereAreSomeToSee) {
     EXPECT_FALSE(planned(scene).needed) << "too small to see";
 }
 
+TEST(Plan, SaysWhatIsThinnedOutAndWhatWouldHelp) {
+    Scene scene = make_scene(-30, 180, -30, 0, 100);
+    Quality quality;
+    const auto planned = [&] {
+        Plan plan = make_plan(scene, fresh(scene), sky::RefractionRow{}, quality);
+        plan_stars(plan, scene, PointBackgrounds::even(2e-4), 9.0);
+        plan_milky_way(plan, scene, 5.0);
+        plan_glare(plan, Pass::kMoonGlare, true, 0.1);
+        return plan;
+    };
+    const auto helps = [](const Plan& plan, Thin thin) {
+        return thinnable(plan).test(static_cast<std::size_t>(thin));
+    };
+    const Plan whole = planned();
+    EXPECT_TRUE(helps(whole, Thin::kStars) && helps(whole, Thin::kMilkyWay) && helps(whole, Thin::kGlare));
+    EXPECT_FALSE(helps(whole, Thin::kCloudRefresh) || helps(whole, Thin::kPrecipitation) ||
+                 helps(whole, Thin::kWaves));
+    quality.thinned.set();
+    const Plan thinned = planned();
+    EXPECT_TRUE(thinnable(thinned).none());
+    EXPECT_FALSE(thinned.needs(Pass::kMilkyWay) || thinned.needs(Pass::kMoonGlare));
+    EXPECT_EQ(thinned[Pass::kMilkyWay].reason, "thinned out for the frame rate");
+    EXPECT_NEAR(whole.stars.limit_mag - thinned.stars.limit_mag, kThinnedStars_mag, 1e-12);
+    EXPECT_FALSE(thinned.stars.twinkle);
+    EXPECT_EQ(thin_name(Thin::kCloudRefresh), "cloud-refresh");
+    EXPECT_EQ(thin_name(Thin::kMilkyWay), "milky-way");
+}
+
 TEST(Plan, DirectionTableGrowsWithTheBudget) {
     int last_columns = 1000;
     for (const double budget : {0.25, 0.5, 4.0}) {

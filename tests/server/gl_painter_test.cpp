@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tests/render/scenes.h"
@@ -85,6 +88,109 @@ TEST(GlPainter, EyesStayAdaptedThroughAReset) {
         "adaptation %.1f before, three seconds later %.1f after a reset, %.1f without, %.1f in the end\n",
         before_cd_m2, painter.adaptation_cd_m2(), steady.adaptation_cd_m2(), settled.adaptation_cd_m2());
     EXPECT_NEAR(painter.adaptation_cd_m2(), steady.adaptation_cd_m2(), 0.02 * steady.adaptation_cd_m2());
+}
+
+Scene two_views() {
+    Scene scene = looking(20.0, 0.0);
+    render::tests::add_view(scene, render::tests::symmetric_frustum(30.0, kWidth_px, kHeight_px),
+                            render::tests::view_from_enu(150.0, 10.0, 0.0));
+    return scene;
+}
+
+std::vector<std::vector<std::byte>> pictures(GlPainter& painter, const Scene& scene, std::size_t count) {
+    std::vector<std::vector<std::byte>> all(count,
+                                            std::vector<std::byte>(std::size_t{kWidth_px} * kHeight_px * 4));
+    painter.prepare(scene);
+    for (std::size_t i = 0; i < count; ++i)
+        painter.draw(i);
+    for (std::size_t i = 0; i < count; ++i)
+        painter.read_back(i, all[i]);
+    return all;
+}
+
+/// Parts of a picture that are bright red, and any red.
+std::pair<double, double> red_parts(const std::vector<std::byte>& rgba) {
+    std::size_t bright = 0, any = 0;
+    for (std::size_t i = 0; i < rgba.size(); i += 4) {
+        const int r = std::to_integer<int>(rgba[i]), g = std::to_integer<int>(rgba[i + 1]);
+        any += r > 50 && g == 0 ? 1 : 0;
+        bright += r > 200 && g == 0 ? 1 : 0;
+    }
+    const auto count = static_cast<double>(rgba.size()) / 4.0;
+    return {static_cast<double>(bright) / count, static_cast<double>(any) / count};
+}
+
+TEST(GlPainter, AChannelThatFailsIsCrossedOutAndTheOthersGoOn) {
+    GlSeatSettings settings = one_channel();
+    settings.channels.push_back({"right", kWidth_px, kHeight_px});
+    GlPainter painter(settings);
+    const Scene scene = two_views();
+    const auto good = pictures(painter, scene, 2);
+    painter.inject_errors(0, 3);
+    int crossed = 0, frames = 0;
+    do {
+        const auto now = pictures(painter, scene, 2);
+        EXPECT_EQ(now[1], good[1]);
+        if (!painter.health(0).failed) break;
+        const auto [bright, any] = red_parts(now[0]);
+        EXPECT_EQ(any, 1.0);
+        EXPECT_GT(bright, 0.04);
+        EXPECT_LT(bright, 0.2);
+        ++crossed;
+    } while (++frames < 100);
+    // Three tries fail, in frames 1, 2 and 4; the next is in frame 8.
+    EXPECT_EQ(crossed, 7);
+    EXPECT_EQ(painter.health(0).failures, 3U);
+    EXPECT_EQ(painter.health(0).reason(), "OpenGL reported an error");
+    EXPECT_FALSE(painter.health(1).failed);
+    EXPECT_EQ(painter.health(1).failures, 0U);
+    EXPECT_EQ(pictures(painter, scene, 2), good);
+    painter.prepare(scene);
+    EXPECT_EQ(painter.gl_errors(), 3U);
+}
+
+TEST(GlPainter, AChannelWithoutAPictureIsRedAndTheOthersAreDrawn) {
+    GlSeatSettings settings = one_channel();
+    const Scene scene = two_views();
+    GlPainter alone(settings);
+    const auto good = picture(alone, looking(20.0, 0.0));
+    // Wider than any driver allows; what is read of it here is a part.
+    settings.channels.push_back({"right", 1 << 20, kHeight_px});
+    GlPainter painter(settings);
+    std::vector<std::vector<std::byte>> now;
+    for (int i = 0; i < 5; ++i)
+        now = pictures(painter, scene, 2);
+    const auto [bright, any] = red_parts(now[1]);
+    EXPECT_EQ(bright, 1.0);
+    EXPECT_EQ(any, 1.0);
+    EXPECT_LE(largest_step(now[0], good), 1);
+    EXPECT_TRUE(painter.health(1).failed);
+    EXPECT_NE(painter.health(1).reason().find("1048576x120"), std::string_view::npos)
+        << painter.health(1).reason();
+    EXPECT_GE(painter.health(1).failures, 3U);
+    EXPECT_FALSE(painter.health(0).failed);
+    // None that can be drawn at all is no painter.
+    settings.channels.erase(settings.channels.begin());
+    EXPECT_THROW(GlPainter{settings}, std::runtime_error);
+}
+
+TEST(ChannelGuard, TriesEverMoreRarelyAndAtOnceAgainAfterASuccess) {
+    ChannelGuard guard;
+    std::vector<int> tries;
+    for (int frame = 1; frame <= 200; ++frame) {
+        if (!guard.try_now()) continue;
+        tries.push_back(frame);
+        guard.failed("no");
+    }
+    EXPECT_EQ(tries, (std::vector<int>{1, 2, 4, 8, 16, 32, 64, 128, 192}));
+    while (!guard.try_now()) {
+    }
+    guard.drawn();
+    EXPECT_FALSE(guard.health().failed);
+    EXPECT_TRUE(guard.try_now());
+    guard.failed("again");
+    EXPECT_TRUE(guard.try_now());
+    EXPECT_EQ(guard.health().failures, 10U);
 }
 
 }  // namespace

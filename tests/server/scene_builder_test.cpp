@@ -319,6 +319,31 @@ TEST(SceneBuilder, SwitchesAirAndFrustaReachTheScene) {
     EXPECT_NEAR(scene.views[1].frustum.left_rad, -30.0 * kRad, 1e-15);
 }
 
+TEST(SceneBuilder, ViewsAreShownAsTheirDefinitionsSay) {
+    HostBench bench;
+    for (int id = 1; id <= 3; ++id) {
+        protocol::cigi::ViewDefinition definition;
+        definition.view_id = static_cast<std::uint16_t>(id);
+        definition.mirror_mode = static_cast<std::uint8_t>(id);
+        definition.pixel_replication = static_cast<std::uint8_t>(id);
+        definition.projection_type = id == 3;
+        bench.send(kHostA, definition);
+    }
+    bench.control(protocol::cigi::ComponentClass::kView, 0, 2, 4);
+    SceneBuilder builder;
+    const render::Scene scene = builder.build(bench.world, 1);
+    // Mirror: 1 across, 2 upright, 3 both. Replication: 1 two high, 2 two wide, 3 both.
+    EXPECT_EQ(scene.views[0].showing, (render::Showing{.mirrored_across = true, .repeat_upright = 2}));
+    EXPECT_EQ(scene.views[1].showing, (render::Showing{.mirrored_upright = true, .repeat_across = 2}));
+    EXPECT_EQ(scene.views[2].showing, (render::Showing{.mirrored_across = true,
+                                                       .mirrored_upright = true,
+                                                       .repeat_across = 2,
+                                                       .repeat_upright = 2,
+                                                       .parallel = true}));
+    EXPECT_EQ(scene.views[0].pattern, render::Pattern::kOff);
+    EXPECT_EQ(scene.views[1].pattern, render::Pattern::kRamp);
+}
+
 TEST(SceneBuilder, SceneDependsOnTheWorldAloneNotOnWhatWasBuiltBefore) {
     HostBench now, then(world::three_channels(), world::utc("1990-02-03T04:05:06Z"));
     SceneBuilder fresh, used;

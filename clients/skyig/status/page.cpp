@@ -66,6 +66,13 @@ std::string duration_text(double seconds) {
     return fmt::format("{} d {} h", whole / 86400, whole % 86400 / 3600);
 }
 
+std::string names_text(const Json& names) {
+    std::string text;
+    for (const Json& name : names)
+        fmt::format_to(std::back_inserter(text), "{}{}", text.empty() ? "" : ", ", text_of(name));
+    return text.empty() ? "nothing" : text;
+}
+
 void add_program(Page& page, const Json& now) {
     const Json& health = now.at("health");
     page.line("skyigd", "{}, up {} since {}", text_of(now.at("version")),
@@ -87,10 +94,28 @@ void add_frames(Page& page, const Json& now, Before before) {
               recent.at("frames").get<std::uint64_t>(),
               grown(now.at("late_frames"), member(before, "late_frames")),
               counts_text(now.at("late_by_cause"), member(before, "late_by_cause")));
+    const Json& overload = now.at("overload");
+    if (!overload.at("order").empty() || !overload.at("thinned").empty()) {
+        const std::string& reason = text_of(overload.at("reason"));
+        page.line("left out", "{}{}{}", names_text(overload.at("thinned")), reason.empty() ? "" : "; ",
+                  reason);
+    }
+    if (now.at("host_timeouts") != 0)
+        page.line("host", "not in time for {} frames",
+                  grown(now.at("host_timeouts"), member(before, "host_timeouts")));
     page.line("times in ms", "{:>10} {:>10} {:>10}", "median", "p95", "largest");
     add_times(page, "last frames", recent);
     for (const Json& times : now.at("times"))
         add_times(page, text_of(times.at("name")), times);
+    bool headed = false;
+    for (const Json& delay : now.at("delays")) {
+        if (delay.at("count") == 0) continue;
+        if (!headed) page.line("delays in ms", "{:>10} {:>10} {:>10}", "median", "p99", "largest");
+        headed = true;
+        page.line("  " + text_of(delay.at("name")), "{:>10.2f} {:>10.2f} {:>10.2f}",
+                  delay.at("median_ms").get<double>(), delay.at("p99_ms").get<double>(),
+                  delay.at("largest_ms").get<double>());
+    }
 }
 
 void add_world(Page& page, const Json& now) {
@@ -114,13 +139,6 @@ void add_world(Page& page, const Json& now) {
                        text_of(pass.at("pass")));
     }
     page.line("drawn", "{}", drawn.empty() ? "nothing" : drawn);
-}
-
-std::string names_text(const Json& names) {
-    std::string text;
-    for (const Json& name : names)
-        fmt::format_to(std::back_inserter(text), "{}{}", text.empty() ? "" : ", ", text_of(name));
-    return text.empty() ? "nothing" : text;
 }
 
 void add_source(Page& page, const Json& source, Before before) {
@@ -153,6 +171,19 @@ void add_sources(Page& page, const Json& now, Before before) {
     }
 }
 
+void add_channels(Page& page, const Json& now, Before before) {
+    const Json& channels = now.at("channels");
+    const Before old = member(before, "channels");
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        if (channels[i].at("failures") == 0) continue;
+        const Before was = old != nullptr && i < old->size() ? &(*old)[i] : nullptr;
+        page.line("channel", "{}: {}, {} times not drawn, last: {}", text_of(channels[i].at("name")),
+                  channels[i].at("failed").get<bool>() ? "FAILED" : "drawn again",
+                  grown(channels[i].at("failures"), member(was, "failures")),
+                  text_of(channels[i].at("last_failure")));
+    }
+}
+
 void add_counts(Page& page, const Json& now, Before before) {
     page.line("packets", "{}", counts_text(now.at("packets"), member(before, "packets")));
     page.line("rejected", "{}", counts_text(now.at("rejects"), member(before, "rejects")));
@@ -166,7 +197,8 @@ void add_counts(Page& page, const Json& now, Before before) {
                   recorder.at("failed").get<bool>() ? "; WRITING FAILED" : "");
     }
     if (now.at("gl_errors") != 0) page.line("GL errors", "{}", now.at("gl_errors").get<std::uint64_t>());
-    if (now.value("gl_resets", 0U) != 0) page.line("GL resets", "{}", now.at("gl_resets").get<std::uint64_t>());
+    if (now.value("gl_resets", 0U) != 0)
+        page.line("GL resets", "{}", now.at("gl_resets").get<std::uint64_t>());
 }
 
 }  // namespace
@@ -177,6 +209,7 @@ std::string page_text(const Json& now, const Json* before) {
     add_frames(page, now, before);
     add_world(page, now);
     add_sources(page, now, before);
+    add_channels(page, now, before);
     add_counts(page, now, before);
     return std::move(page).take();
 }

@@ -53,10 +53,13 @@ void take_weather(const StillOptions& options, config::Config& config) {
     if (!options.metar.empty()) {
         config.weather.preset.clear();
         config.weather.layers.clear();
+        config.weather.areas.clear();
         config.weather.metar = options.metar;
     }
     const std::string source = options.metar.empty() ? options.config_path : "--metar";
     if (const std::string fault = server::metar_fault(config, source); !fault.empty()) fail(fault);
+    if (const std::string left_out = server::metar_left_out(config, source); !left_out.empty())
+        fmt::print(stderr, "warning: {}\n", left_out);
 }
 
 config::Config still_config(const StillOptions& options) {
@@ -72,6 +75,7 @@ config::Config still_config(const StillOptions& options) {
     start.roll_deg = options.roll_deg.value_or(start.roll_deg);
     config.air.visibility_m = options.visibility_m.value_or(config.air.visibility_m);
     config.sky.model = options.sky_model.value_or(config.sky.model);
+    if (!options.pattern.empty()) config::show_pattern(config, options.pattern);
     return config;
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "clients/skyig/validators.h"
+#include "config/pattern.h"
 #include "render/sky_settings.h"
 
 namespace skyig::clients {
@@ -33,6 +35,9 @@ void add_still(CLI::App& verb, StillOptions& options) {
                                           "ready-made weather (cavok, few ... cat3b), or a file of such")
                               ->type_name("PRESET");
     verb.add_option("--metar", options.metar, "a weather report, in quotes")
+        ->check(CLI::Validator(
+            [](std::string& text) { return text.empty() ? "is empty; it must be a weather report" : ""; },
+            {}))
         ->type_name("TEXT")
         ->excludes(preset);
     verb.add_option("--elevation", options.elevation_m,
@@ -46,6 +51,10 @@ void add_still(CLI::App& verb, StillOptions& options) {
                                           "model of the day sky (the settings', or multi)")
         ->check(sky_model_name())
         ->type_name("MODEL");
+    verb.add_option("--pattern", options.pattern, "a test pattern in place of the sky, in all channels")
+        ->check(CLI::IsMember(
+            std::vector<std::string>(config::kPatternNames.begin(), config::kPatternNames.end())))
+        ->type_name("NAME");
     verb.add_option("--width", options.width_px, "pixels across (1280)")
         ->check(CLI::Range(1, 16384))
         ->excludes(config);

@@ -43,4 +43,30 @@ void CloudField::march(std::span<const CloudRay> rays, const CloudRange& range, 
     }
 }
 
+void CloudField::shadow(const CloudBeam& beam, float grain_m, std::span<const glm::vec2> ground_m,
+                        std::span<float> passed) const noexcept {
+    // A beam along the ground would meet all clouds there are.
+    constexpr float kLowest = 0.01F;
+    Shade batch{};
+    for (int c = 0; c < 3; ++c)
+        batch.direction[c] = beam.direction_enu[c];
+    batch.direction[2] = std::max(batch.direction[2], kLowest);
+    batch.along[0] = beam.direction_enu.x + field_.closing * beam.direction_enu.y;
+    batch.along[1] = beam.direction_enu.y;
+    batch.grain_m = grain_m;
+    batch.spread_rad = beam.spread_rad;
+    const std::size_t all = std::min(ground_m.size(), passed.size());
+    for (std::size_t first = 0; first < all; first += kRays) {
+        const std::size_t count = std::min(all - first, static_cast<std::size_t>(kRays));
+        for (std::size_t i = 0; i < static_cast<std::size_t>(kRays); ++i) {
+            const glm::vec2& place = ground_m[first + std::min(i, count - 1)];
+            batch.east_m[i] = place.x + field_.closing * place.y;
+            batch.north_m[i] = place.y;
+        }
+        batch.count = static_cast<int>(count);
+        kernels_->shade(field_, batch);
+        std::copy_n(batch.passed, count, &passed[first]);
+    }
+}
+
 }  // namespace skyig::render::cloud::field

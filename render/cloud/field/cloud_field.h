@@ -37,6 +37,9 @@ class CloudField final : public CloudSource {
     void march(std::span<const CloudRay> rays, const CloudRange& range, float ray_rad,
                std::span<CloudSample> out) const noexcept override;
 
+    void shadow(const CloudBeam& beam, float grain_m, std::span<const glm::vec2> ground_m,
+                std::span<float> passed) const noexcept override;
+
     /// What is frozen, lowest deck first.
     [[nodiscard]] const Field& field() const noexcept { return field_; }
 

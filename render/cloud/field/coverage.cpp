@@ -13,18 +13,22 @@ static_assert(kRays % kHeights == 0);
 
 using Column = std::array<float, kHeights>;
 
-// Values at heights in the middle of equal parts, over places of the R2 sequence (Roberts 2018).
-std::vector<Column> columns_of(const Shape& shape, float thickness_m) {
+// The n-th place of the R2 sequence (Roberts 2018).
+void put_place(Points& points, int at, int n) {
     constexpr double kEast = 0.7548776662466927;
     constexpr double kNorth = 0.5698402909980532;
+    points.east_m[at] = static_cast<float>((kEast * n - std::floor(kEast * n)) * kWorld_m);
+    points.north_m[at] = static_cast<float>((kNorth * n - std::floor(kNorth * n)) * kWorld_m);
+}
+
+// Values at heights in the middle of equal parts.
+std::vector<Column> columns_of(const Shape& shape, float thickness_m) {
     std::vector<Column> columns(kColumns);
     Points points{};
     constexpr int kAtOnce = kRays / kHeights;
     for (int first = 0; first < kColumns; first += kAtOnce) {
         for (int i = 0; i < kRays; ++i) {
-            const double n = first + i / kHeights;
-            points.east_m[i] = static_cast<float>((kEast * n - std::floor(kEast * n)) * kWorld_m);
-            points.north_m[i] = static_cast<float>((kNorth * n - std::floor(kNorth * n)) * kWorld_m);
+            put_place(points, i, first + i / kHeights);
             points.height_m[i] = (static_cast<float>(i % kHeights) + 0.5F) / kHeights * thickness_m;
         }
         kernels().values(shape, thickness_m, points);
@@ -33,6 +37,22 @@ std::vector<Column> columns_of(const Shape& shape, float thickness_m) {
                 points.value[i];
     }
     return columns;
+}
+
+// Of the flats alone.
+std::vector<float> flat_values_of(Shape shape) {
+    for (Fine& fine : shape.fines)
+        fine.weight = 0.0F;
+    std::fill(std::begin(shape.lift), std::end(shape.lift), 0.0F);
+    std::vector<float> values(kColumns);
+    Points points{};
+    for (int first = 0; first < kColumns; first += kRays) {
+        for (int i = 0; i < kRays; ++i)
+            put_place(points, i, first + i);
+        kernels().values(shape, 1.0F, points);
+        std::copy(std::begin(points.value), std::end(points.value), values.begin() + first);
+    }
+    return values;
 }
 
 float mean_density(const Column& column, float threshold, float edge) {
@@ -64,6 +84,22 @@ float lowest_value(const Shape& shape) {
     return -0.5F * sum;
 }
 
+// The mean density of which a column hides what is behind it.
+float hiding_part(double optical_depth) {
+    return static_cast<float>(std::min(std::log(2.0), 0.25 * optical_depth) / optical_depth);
+}
+
+// From the thresholds of all columns.
+template <class Curve>
+void put_curve(std::vector<float>& thresholds, float full, Curve& curve) {
+    std::sort(thresholds.begin(), thresholds.end(), std::greater<>());
+    const std::size_t parts = curve.size() - 1;
+    for (std::size_t i = 1; i < parts; ++i)
+        curve[i] = thresholds[i * kColumns / parts];
+    curve[0] = thresholds.front() + 0.05F;
+    curve[parts] = full;
+}
+
 }  // namespace
 
 Coverage::Coverage(const Noise& noise) {
@@ -72,23 +108,26 @@ Coverage::Coverage(const Noise& noise) {
         const auto genus = static_cast<CloudGenus>(g);
         const Shape shape = shape_of(noise, genus, {});
         const std::vector<Column> columns = columns_of(shape, genus_of(genus).usual_thickness_m);
+        const std::vector<float> flats = flat_values_of(shape);
+        const float full = lowest_value(shape) - shape.edge;
         for (std::size_t d = 0; d < kDepths.size(); ++d) {
-            const auto part = static_cast<float>(std::min(std::log(2.0), 0.25 * kDepths[d]) / kDepths[d]);
+            const float part = hiding_part(kDepths[d]);
             for (std::size_t i = 0; i < columns.size(); ++i)
                 thresholds[i] = threshold_of(columns[i], shape.edge, part);
-            std::sort(thresholds.begin(), thresholds.end(), std::greater<>());
-            Curve& curve = curves_[g][d];
-            for (std::size_t i = 1; i < kParts; ++i)
-                curve[i] = thresholds[i * kColumns / kParts];
-            curve[0] = thresholds.front() + 0.05F;
-            curve[kParts] = lowest_value(shape) - shape.edge;
+            put_curve(thresholds, full, curves_[static_cast<std::size_t>(Drawn::kVolume)][g][d]);
+            // A sheet's density goes straight with the value.
+            for (std::size_t i = 0; i < flats.size(); ++i)
+                thresholds[i] = flats[i] - part * shape.edge;
+            put_curve(thresholds, full, curves_[static_cast<std::size_t>(Drawn::kSheet)][g][d]);
         }
     }
 }
 
-float Coverage::threshold(CloudGenus genus, double coverage, double optical_depth) const noexcept {
-    const auto& curves =
-        curves_[static_cast<std::size_t>(genus) < kGenera ? static_cast<std::size_t>(genus) : 0];
+float Coverage::threshold(CloudGenus genus, double coverage, double optical_depth,
+                          Drawn drawn) const noexcept {
+    const std::size_t known_genus =
+        static_cast<std::size_t>(genus) < kGenera ? static_cast<std::size_t>(genus) : 0;
+    const Curves& curves = curves_[static_cast<std::size_t>(drawn)][known_genus];
     const double place = std::clamp(coverage, 0.0, 1.0) * static_cast<double>(kParts);
     const std::size_t low = std::min(static_cast<std::size_t>(place), kParts - 1);
     const auto part = static_cast<float>(place - static_cast<double>(low));

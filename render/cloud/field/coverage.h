@@ -15,15 +15,20 @@ class Coverage {
   public:
     explicit Coverage(const Noise& noise);
 
+    /// How a layer is drawn: through its height, or by one look at its flats.
+    enum class Drawn : std::size_t { kVolume, kSheet };
+
     /// \param coverage  0..1: at 0 no column holds cloud, at 1 every one is full \param optical_depth  of the
     /// layer where it is full, > 0
-    [[nodiscard]] float threshold(CloudGenus genus, double coverage, double optical_depth) const noexcept;
+    [[nodiscard]] float threshold(CloudGenus genus, double coverage, double optical_depth,
+                                  Drawn drawn = Drawn::kVolume) const noexcept;
 
   private:
     static constexpr std::size_t kParts = 32;
     static constexpr std::array<double, 4> kDepths{1.0, 8.0, 64.0, 512.0};
     using Curve = std::array<float, kParts + 1>;
-    std::array<std::array<Curve, kDepths.size()>, kGenera> curves_{};
+    using Curves = std::array<Curve, kDepths.size()>;
+    std::array<std::array<Curves, kGenera>, 2> curves_{};
 };
 
 }  // namespace skyig::render::cloud::field

@@ -49,11 +49,11 @@ float grown(const CloudLayer& cloud) {
     return cloud.genus == CloudGenus::kCumulonimbus ? f32(std::clamp(cloud.severity, 0.0, 1.0)) : 1.0F;
 }
 
-float threshold_of(const Coverage& coverage, const CloudLayer& cloud, double part) {
+float threshold_of(const Coverage& coverage, const CloudLayer& cloud, double part, Coverage::Drawn drawn) {
     const double depth = extinction_of(cloud) * cloud.thickness_m;
-    const float full = coverage.threshold(cloud.genus, part, depth);
+    const float full = coverage.threshold(cloud.genus, part, depth, drawn);
     const float young = 1.0F - grown(cloud);
-    return young > 0.0F ? glm::mix(full, coverage.threshold(kTower, part, depth), young) : full;
+    return young > 0.0F ? glm::mix(full, coverage.threshold(kTower, part, depth, drawn), young) : full;
 }
 
 // Coverage moves the sum's mean from where no tile brings it over 0 to where none brings it below.
@@ -94,8 +94,9 @@ Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnch
         layer.shape = shape_of(matrix.noise, cloud.genus, place);
         for (std::size_t i = 0; i < 3; ++i)
             layer.shape.lift[i] = glm::mix(genus_of(kTower).lift[i], layer.shape.lift[i], grown(cloud));
-        layer.threshold = threshold_of(matrix.coverage, cloud, cloud.coverage);
-        layer.dry = threshold_of(matrix.coverage, cloud, 0.0) - layer.threshold + 0.5F;
+        const auto drawn = layer.sheet ? Coverage::Drawn::kSheet : Coverage::Drawn::kVolume;
+        layer.threshold = threshold_of(matrix.coverage, cloud, cloud.coverage, drawn);
+        layer.dry = threshold_of(matrix.coverage, cloud, 0.0, drawn) - layer.threshold + 0.5F;
         layer.self_shadow = 1.0F;
     }
     layer.base_m = f32(cloud.base_m);

@@ -136,6 +136,18 @@ struct alignas(64) Rays {
     float ray_rad;
 };
 
+/// Places on the ground that a source's beam comes to, on the field's axes, and what is left of it.
+struct alignas(64) Shade {
+    float east_m[kRays];
+    float north_m[kRays];
+    float passed[kRays];
+    int count;
+    float direction[3];  // towards the source, which stands above the horizon
+    float along[2];      // the same on the field's axes
+    float grain_m;       // what is finer does not show
+    float spread_rad;    // of the source's disc
+};
+
 /// The part of a ray between two heights, on its way down or up; empty if to <= from.
 struct alignas(64) Parts {
     float sine[kRays];  // of the ray's elevation
@@ -162,6 +174,8 @@ struct Kernels {
     const char* name;
     /// Fills light, transmittance and distance of the first `count` rays.
     void (*march)(const Field& field, Rays& rays);
+    /// Fills what is left of the beam at the first `count` places.
+    void (*shade)(const Field& field, Shade& shade);
     void (*parts)(float eye_m, float low_m, float high_m, bool rising, Parts& parts);
     /// Fills the values of a shape whose layer is this thick, all octaves at full weight.
     void (*values)(const Shape& shape, float thickness_m, Points& points);

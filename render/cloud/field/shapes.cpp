@@ -43,8 +43,8 @@ constexpr Genus cumulonimbus() {
                 {Sheet::kPuffs, turned(9, -4), 0.16F}}};
     g.push = {0.05F, 0.03F};
     g.fines = {{{turned(27, 11), 4200.0F, 0.25F}, {turned(107, 44), 1200.0F, 0.12F}}};
-    // Full grown: a trunk, and the anvil over it.
-    g.lift = {1.5F, -4.9F, 3.3F};
+    // Full grown: a trunk that is wide at its base, and the anvil that spreads over it.
+    g.lift = {2.2F, -8.3F, 6.2F};
     g.edge = 0.30F;
     g.reach_m = 660.0F;
     g.step_m = 20.0F;

@@ -2,6 +2,7 @@
 // The dome as sky/dome.vert has it, one octant of directions at a time: in it a direction's place on the cloud map is a
 // quotient of two sums that are linear over a triangle. What lies in other octants is clipped.
 #include "common/dither.glsl"
+#include "common/place.glsl"
 
 layout(location = 0) in vec3 a_direction;
 layout(location = 1) in vec3 a_from;
@@ -31,6 +32,6 @@ void main() {
     gl_ClipDistance[0] = sizes.x + kOverlap;
     gl_ClipDistance[1] = sizes.y + kOverlap;
     gl_ClipDistance[2] = sizes.z + kOverlap;
-    gl_Position = u_clip_from_mesh * vec4(a_direction, 1.0);
+    gl_Position = placed(u_clip_from_mesh * vec4(a_direction, 1.0));
     v_dither_phase_w = dot((gl_Position.xy + gl_Position.w) * u_half_size_px, kDitherStep);
 }

@@ -1,5 +1,7 @@
 #version 450 core
 // The veil round a source of glare: rings of vertices in gnomonic coordinates about it, the same for every channel.
+#include "common/place.glsl"
+
 layout(location = 0) in vec2 a_offset;
 layout(location = 1) in vec3 a_over_sky;
 layout(location = 2) in vec3 a_over_ground;
@@ -18,5 +20,5 @@ void main() {
     v_over_ground = a_over_ground;
     vec3 direction = u_enu_from_source * vec3(a_offset, 1.0);
     v_height = direction.z;
-    gl_Position = u_clip_from_enu * vec4(direction, 0.0);
+    gl_Position = placed(u_clip_from_enu * vec4(direction, 0.0));
 }

@@ -76,15 +76,11 @@ SKYIG_INLINE rvec3 highlights(rvec3 display, real shoulder) {
     return scaled + (rvec3(kept) - scaled) * white;
 }
 
-// Display linear -> display code in 0..1. The display adds its black and what it reflects to all that it is sent.
-SKYIG_INLINE rvec3 encoded(rvec3 display, ToneParameters tone) {
-    if (stores_luminance(tone)) return min(display, rvec3(real(65504.0)));
-    if (tone.encode_power < real(0.0)) return display;
-    rvec3 sent = highlights(display - rvec3(tone.ambient), tone.shoulder);
-    rvec3 v = clamp(sent, rvec3(real(0.0)), rvec3(real(1.0)));
+// What a screen is to emit beyond its black, 0..1 -> code. \param power  ToneParameters::encode_power, >= 0
+SKYIG_INLINE rvec3 code_of(rvec3 v, real encode_power) {
     // Software GL computes both sides of a branch: one power serves either curve.
-    bool srgb = tone.encode_power == real(0.0);
-    real power = srgb ? real(1.0) / real(2.4) : tone.encode_power;
+    bool srgb = encode_power == real(0.0);
+    real power = srgb ? real(1.0) / real(2.4) : encode_power;
     real scale = srgb ? real(1.055) : real(1.0);
     real toe = srgb ? real(0.0031308) : real(0.0);
     rvec3 low = v * real(12.92);
@@ -92,18 +88,30 @@ SKYIG_INLINE rvec3 encoded(rvec3 display, ToneParameters tone) {
     return rvec3(v.x <= toe ? low.x : high.x, v.y <= toe ? low.y : high.y, v.z <= toe ? low.z : high.z);
 }
 
-// What encoded() was given for a code below the shoulder: where it bends nothing.
-SKYIG_INLINE rvec3 displayed(rvec3 code, ToneParameters tone) {
-    if (stores_luminance(tone) || tone.encode_power < real(0.0)) return code;
-    bool srgb = tone.encode_power == real(0.0);
-    real power = srgb ? real(2.4) : real(1.0) / tone.encode_power;
+// The other way.
+SKYIG_INLINE rvec3 emitted(rvec3 code, real encode_power) {
+    bool srgb = encode_power == real(0.0);
+    real power = srgb ? real(2.4) : real(1.0) / encode_power;
     real scale = srgb ? real(1.0) / real(1.055) : real(1.0);
     real toe = srgb ? real(0.04045) : real(0.0);
     rvec3 v = clamp(code, rvec3(real(0.0)), rvec3(real(1.0)));
     rvec3 low = v * (real(1.0) / real(12.92));
     rvec3 high = pow((v + rvec3(srgb ? real(0.055) : real(0.0))) * scale, rvec3(power));
-    rvec3 sent = rvec3(v.x <= toe ? low.x : high.x, v.y <= toe ? low.y : high.y, v.z <= toe ? low.z : high.z);
-    return sent + rvec3(tone.ambient);
+    return rvec3(v.x <= toe ? low.x : high.x, v.y <= toe ? low.y : high.y, v.z <= toe ? low.z : high.z);
+}
+
+// Display linear -> display code in 0..1. The display adds its black and what it reflects to all that it is sent.
+SKYIG_INLINE rvec3 encoded(rvec3 display, ToneParameters tone) {
+    if (stores_luminance(tone)) return min(display, rvec3(real(65504.0)));
+    if (tone.encode_power < real(0.0)) return display;
+    rvec3 sent = highlights(display - rvec3(tone.ambient), tone.shoulder);
+    return code_of(clamp(sent, rvec3(real(0.0)), rvec3(real(1.0))), tone.encode_power);
+}
+
+// What encoded() was given for a code below the shoulder: where it bends nothing.
+SKYIG_INLINE rvec3 displayed(rvec3 code, ToneParameters tone) {
+    if (stores_luminance(tone) || tone.encode_power < real(0.0)) return code;
+    return emitted(code, tone.encode_power) + rvec3(tone.ambient);
 }
 
 SKYIG_INLINE rvec3 shown(rvec3 rgb_cd_m2, ToneParameters tone) { return encoded(display_linear(rgb_cd_m2, tone), tone); }

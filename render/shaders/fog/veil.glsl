@@ -41,8 +41,18 @@ struct VeilSum {
     real depth;
     real cut_depth;
     rvec3 added_cd_m2;
-    real moment_m;           // of what was kept away: its mean distance times its share
+    real moment_m;           // of what was kept away: its mean distance times its share,
+    real square_m2;          // and that of the distance's square
 };
+
+// Nothing yet.
+SKYIG_INLINE VeilSum veil_none() {
+    VeilSum sum;
+    sum.depth = sum.cut_depth = real(0.0);
+    sum.added_cd_m2 = rvec3(real(0.0));
+    sum.moment_m = sum.square_m2 = real(0.0);
+    return sum;
+}
 
 // Height over the eye of a place on the ray.
 SKYIG_INLINE real veil_rise_m(real along_m, VeilRay ray) {
@@ -88,6 +98,13 @@ SKYIG_INLINE real veil_moment(real x) {
     if (x < real(0.1))
         return x * (real(0.5) - x * (real(1.0 / 3.0) - x * (real(0.125) - x * (real(1.0 / 30.0) - x / real(144.0)))));
     return (real(1.0) - (real(1.0) + x) * exp(-x)) / x;
+}
+
+// The integral of y^2 exp(-y) from 0 to x, over x^2.
+SKYIG_INLINE real veil_square(real x) {
+    if (x < real(0.2))
+        return x * (real(1.0 / 3.0) - x * (real(0.25) - x * (real(0.1) - x * (real(1.0 / 36.0) - x / real(168.0)))));
+    return (real(2.0) - (real(2.0) + x * (real(2.0) + x)) * exp(-x)) / (x * x);
 }
 
 // Henyey and Greenstein, 1 over the sphere.
@@ -137,7 +154,9 @@ SKYIG_INLINE VeilSum veil_add(VeilSum sum, VeilSegment at, real from_m, real to_
     sum.depth += depth;
     sum.cut_depth += cut;
     sum.added_cd_m2 = sum.added_cd_m2 + max(added, rvec3(real(0.0))) * passed;
-    sum.moment_m += passed * (from_m * lost + (to_m - from_m) * moment);
+    real long_m = to_m - from_m;
+    sum.moment_m += passed * (from_m * lost + long_m * moment);
+    sum.square_m2 += passed * (from_m * (from_m * lost + real(2.0) * long_m * moment) + long_m * long_m * veil_square(cut));
     return sum;
 }
 
@@ -156,27 +175,54 @@ SKYIG_INLINE real veil_air_column_m(real rise_m, real along_m, real scale_m) {
     return along_m * exp(-min(rise_m, real(0.0)) / scale_m) * mean;
 }
 
-// Of light from that far, from a place so much higher.
-SKYIG_INLINE rvec3 veil_air_passes(real rise_m, real along_m, VeilAir air) {
+// Optical depth up to that far, to a place so much higher.
+SKYIG_INLINE rvec3 veil_air_depth(real rise_m, real along_m, VeilAir air) {
     if (air.above_m > real(0.0)) {
         real inside_m = min(rise_m + air.above_m, real(0.0));
         along_m *= rise_m < real(0.0) ? inside_m / rise_m : real(0.0);
         rise_m = inside_m;
     }
-    rvec3 depth = air.molecules_per_m * veil_air_column_m(rise_m, along_m, air.molecules_height_m) +
-                  air.aerosol_per_m * veil_air_column_m(rise_m, along_m, air.aerosol_height_m);
-    return exp(-depth);
+    return air.molecules_per_m * veil_air_column_m(rise_m, along_m, air.molecules_height_m) +
+           air.aerosol_per_m * veil_air_column_m(rise_m, along_m, air.aerosol_height_m);
 }
 
-// Of light from outside the air, by Rozenberg's air mass.
-SKYIG_INLINE rvec3 veil_all_air_passes(real sine, VeilAir air) {
+// Of light from that far, from a place so much higher.
+SKYIG_INLINE rvec3 veil_air_passes(real rise_m, real along_m, VeilAir air) {
+    return exp(-veil_air_depth(rise_m, along_m, air));
+}
+
+// A column towards there over the upright one: in Rozenberg's form, for any scale height; at the level Chapman's
+// sqrt(pi R / (2 H)), 35 of air and 91 of haze that thins out by e in 1200 m.
+SKYIG_INLINE real veil_air_mass(real sine, real scale_m) {
     real up = max(sine, real(0.0));
-    real mass = real(1.0) / (up + real(0.025) * exp(real(-11.0) * up));
-    return exp(-(air.molecules_per_m * air.molecules_height_m + air.aerosol_per_m * air.aerosol_height_m) * mass);
+    real level = sqrt(scale_m * real(0.636619772 / 6371000.0));
+    return real(1.0) / (up + level * exp(real(-0.275) * up / level));
 }
 
-// Air and veil together along a ray, smooth light: the veil's light `added` lies behind the air up to its mean distance,
-// whose part `air_passes` gets through, and where it is, that air's own light (`air_cd_m2`, of endless air) is before it.
+// Of light from outside the air.
+SKYIG_INLINE rvec3 veil_all_air_passes(real sine, VeilAir air) {
+    return exp(-(air.molecules_per_m * (air.molecules_height_m * veil_air_mass(sine, air.molecules_height_m)) +
+                 air.aerosol_per_m * (air.aerosol_height_m * veil_air_mass(sine, air.aerosol_height_m))));
+}
+
+// Mean distance of what the veil keeps away.
+SKYIG_INLINE real veil_distance_m(VeilSum sum) {
+    return sum.moment_m / max(veil_lost(sum.cut_depth), real(1e-30));
+}
+
+// What the air lets through of the veil's light, the mean over the distances that it comes from: these lie as a gamma
+// distribution of the same mean and variance, which is what they are where veil and air are one even mixture.
+SKYIG_INLINE rvec3 veil_air_passes_before(VeilSum sum, VeilRay ray, VeilAir air) {
+    real mean_m = veil_distance_m(sum);
+    rvec3 depth = veil_air_depth(veil_rise_m(mean_m, ray), mean_m, air);
+    real lost = max(veil_lost(sum.cut_depth), real(1e-30));
+    real spread = min(sum.square_m2 / max(lost * mean_m * mean_m, real(1e-30)) - real(1.0), real(1.0));
+    if (!(spread > real(1e-3))) return exp(-depth);
+    return exp(-log(rvec3(real(1.0)) + spread * depth) / spread);
+}
+
+// Air and veil together along a ray, smooth light: of the veil's light `added` the part `air_passes` gets through
+// the air before it, and where it is, that air's own light (`air_cd_m2`, of endless air) is before it.
 SKYIG_INLINE rvec3 veil_in_air(VeilSum sum, rvec3 air_passes, rvec3 air_cd_m2, rvec3 behind_cd_m2) {
     rvec3 kept_away = air_cd_m2 * veil_lost(sum.cut_depth);
     return kept_away + air_passes * (sum.added_cd_m2 - kept_away) + behind_cd_m2 * exp(-sum.cut_depth);
@@ -186,11 +232,6 @@ SKYIG_INLINE rvec3 veil_in_air(VeilSum sum, rvec3 air_passes, rvec3 air_cd_m2, r
 // Else what little both differ would spoil the faint contrast that is left.
 SKYIG_INLINE rvec3 veil_own_air(rvec3 added_cd_m2, rvec3 air_passed, rvec3 air_cd_m2, VeilSum near) {
     return added_cd_m2 + ((rvec3(real(1.0)) - air_passed) * air_cd_m2 - added_cd_m2) * veil_lost(near.depth);
-}
-
-// Mean distance of what the veil keeps away.
-SKYIG_INLINE real veil_distance_m(VeilSum sum) {
-    return sum.moment_m / max(veil_lost(sum.cut_depth), real(1e-30));
 }
 
 // What is added before a thing: the light up to it, and of the light that would come from behind it so much as is scattered

@@ -2,6 +2,7 @@
 // The Milky Way's belt: a strip of directions with what a texel of the map adds to the display there. What depends on
 // direction alone is interpolated over flat triangles, as in the dome: channels agree wherever they overlap.
 #include "common/dither.glsl"
+#include "common/place.glsl"
 
 layout(location = 0) in vec3 a_direction;
 layout(location = 1) in vec2 a_place;
@@ -24,7 +25,7 @@ out float v_above_horizon;
 out float v_dither_phase_w;
 
 void main() {
-    gl_Position = u_clip_from_galactic * vec4(a_direction, 1.0);
+    gl_Position = placed(u_clip_from_galactic * vec4(a_direction, 1.0));
     v_direction = u_enu_from_galactic * a_direction;
     v_place = a_place * u_place_scale + u_place_shift;
     v_colour = a_colour;

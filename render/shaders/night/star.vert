@@ -3,6 +3,7 @@
 // and in the corners. What it adds to a pixel is its illuminance times the footprint's weight there over the pixel's
 // own solid angle, so that the sum over the pixels of luminance times solid angle is its illuminance.
 #include "common/scalar.glsl"
+#include "common/place.glsl"
 #include "eye/tone.glsl"
 #include "cloud/fetch.glsl"
 
@@ -32,6 +33,8 @@ void main() {
     float ahead = max(-view.z, 1e-6);
     vec2 plane = view.xy / ahead;
     v_place_px = (plane - u_plane_origin) / u_plane_step;
+    vec3 moved = moved_at(2.0 * v_place_px / u_size_px - 1.0);
+    v_place_px += 0.5 * moved.xy * u_size_px;
     // A point is drawn only if its middle lies in the picture: one that stands outside by less than half a footprint is
     // drawn from the edge, which moves no light (see star.frag).
     vec2 middle_px = clamp(v_place_px, vec2(0.0), u_size_px);
@@ -40,9 +43,9 @@ void main() {
     gl_Position = shows ? vec4(2.0 * middle_px / u_size_px - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 0.0, 1.0);
     gl_PointSize = kFootprintPx;
 
-    // A pixel's solid angle falls with (1 + x^2 + y^2)^-1.5 of its place on the image plane.
+    // A pixel's solid angle falls with (1 + x^2 + y^2)^-1.5 of its place on the image plane, and as the warp has it.
     float stretch = 1.0 + dot(plane, plane);
-    v_peak = a_illuminance_lux * (u_peak_gain * stretch * sqrt(stretch));
+    v_peak = a_illuminance_lux * (u_peak_gain * stretch * sqrt(stretch) / moved.z);
     v_background = display_linear(a_background_cd_m2, u_tone);
     v_background_code = encoded(v_background, u_tone);
     if (u_clouds_shown > 0.5) {

@@ -3,6 +3,7 @@
 // fragments need is linear in the view ray before it is brought to length 1, so that a direction has the same answer in
 // every channel: the pixel that softens edges is the finest of the rig.
 #include "common/scalar.glsl"
+#include "common/place.glsl"
 #include "eye/tone.glsl"
 
 layout(location = 0) in vec3 a_head_enu_m;
@@ -68,7 +69,7 @@ void main() {
     float end_m = length(at_head ? near_head : near_tail);
     float margin = (half_width / max(end_m, 1e-3) + 0.5 * u_pixel_rad) * (1.0 + dot(end, end)) * 1.1;
     vec2 plane = end + margin * ((at_head ? along : -along) + side * vec2(-along.y, along.x));
-    gl_Position = vec4(2.0 * (plane - u_plane_origin) / u_plane_size - 1.0, 0.0, 1.0);
+    gl_Position = placed(vec4(2.0 * (plane - u_plane_origin) / u_plane_size - 1.0, 0.0, 1.0));
 
     vec3 ray = vec3(plane, -1.0);
     v_lines = vec4(dot(ray, across), -dot(ray, from_head), dot(ray, from_tail), half_width * dot(ray, nearness));

@@ -1,11 +1,12 @@
 #version 450 core
-// Another renderer's picture under our air: colour * passed + added, then the tone curve. Where it has drawn nothing, what
+// Another renderer's picture under our air: colour * passed + added, behind the clouds before it, then the tone curve. Where it has drawn nothing, what
 // is there stays.
 #include "common/scalar.glsl"
 #include "eye/tone.glsl"
 #include "common/dither.glsl"
 #include "sky/aerial.glsl"
 #include "fog/veil.glsl"
+#include "cloud/things.glsl"
 
 uniform ToneParameters u_tone;
 uniform AerialMap u_map;
@@ -102,16 +103,14 @@ void walk(vec3 view, float distance_m, inout VeilSum near, inout VeilSum whole) 
 
 // A thing under clear air shows colour * passed + added; that air is `far_cd_m2` where it has no end.
 vec3 under_veil(vec3 colour, vec3 passed, vec3 added, vec3 far_cd_m2, vec3 view, float distance_m) {
-    VeilSum near = VeilSum(0.0, 0.0, vec3(0.0), 0.0);
+    VeilSum near = veil_none();
     VeilSum whole = near;
     walk(view, distance_m, near, whole);
     VeilRay ray = VeilRay(view.z, u_veil_radius_m);
     VeilAir air = VeilAir(u_veil_molecules.xyz, u_veil_aerosol.xyz, u_veil_molecules.w, u_veil_aerosol.w, u_veil_above_m);
-    float near_m = veil_distance_m(near);
-    float whole_m = veil_distance_m(whole);
-    vec3 before = veil_in_air(near, veil_air_passes(veil_rise_m(near_m, ray), near_m, air), far_cd_m2,
+    vec3 before = veil_in_air(near, veil_air_passes_before(near, ray, air), far_cd_m2,
                               veil_own_air(added, passed, far_cd_m2, near));
-    vec3 without = veil_in_air(whole, veil_air_passes(veil_rise_m(whole_m, ray), whole_m, air), far_cd_m2,
+    vec3 without = veil_in_air(whole, veil_air_passes_before(whole, ray, air), far_cd_m2,
                                u_veil_beyond[view.z < 0.0 ? 1 : 0]);
     return colour * passed * exp(-near.depth) + veil_before(before, without, near);
 }
@@ -146,6 +145,9 @@ void main() {
     vec3 colour = texelFetch(u_colour, pixel, 0).rgb;
     colour = vec3(clean(colour.r), clean(colour.g), clean(colour.b));
     float far_m = length(v_far_enu);
-    colour = under_air(colour, v_far_enu / far_m, max(depth, 0.0) * far_m);
+    vec3 view = v_far_enu / far_m;
+    float distance_m = max(depth, 0.0) * far_m;
+    colour = under_air(in_cloud_shadow(colour, view, distance_m), view, distance_m);
+    colour = behind_clouds(colour, view, distance_m);
     o_colour = vec4(dithered(shown(colour, u_tone), dot(gl_FragCoord.xy, kDitherStep)), 1.0);
 }

@@ -1,6 +1,8 @@
 #version 450 core
 // A strip of level lines across a body of the sky. Its varyings are gnomonic coordinates about the body's centre, exact
 // at any field of view: as the disc is seen, and as it would be without refraction.
+#include "common/place.glsl"
+
 layout(location = 0) in vec2 a_seen;
 layout(location = 1) in vec2 a_true_up_stretch;
 layout(location = 2) in vec3 a_light;
@@ -23,5 +25,5 @@ void main() {
     v_light = a_light;
     vec3 direction = u_centre_enu + a_seen.x * u_right_enu + a_seen.y * u_up_enu;
     v_height = direction.z;
-    gl_Position = u_clip_from_enu * vec4(direction, 0.0);
+    gl_Position = placed(u_clip_from_enu * vec4(direction, 0.0));
 }

@@ -3,6 +3,7 @@
 // Perspective-correct interpolation over a flat triangle depends on the direction alone, so that neighbouring channels
 // agree wherever they overlap.
 #include "common/dither.glsl"
+#include "common/place.glsl"
 
 layout(location = 0) in vec3 a_direction;
 layout(location = 1) in vec3 a_from;
@@ -22,6 +23,6 @@ out float v_dither_phase_w;
 void main() {
     v_encoded = mix(a_from, a_to, u_share);
     v_direction = (u_enu_from_mesh * vec4(a_direction, 1.0)).xyz;
-    gl_Position = u_clip_from_mesh * vec4(a_direction, 1.0);
+    gl_Position = placed(u_clip_from_mesh * vec4(a_direction, 1.0));
     v_dither_phase_w = dot((gl_Position.xy + gl_Position.w) * u_half_size_px, kDitherStep);
 }

@@ -1,6 +1,7 @@
 #version 450 core
 // The dome's triangles where waves are seen one by one (sky/dome.vert), with what their slopes change of the light.
 #include "common/dither.glsl"
+#include "common/place.glsl"
 
 layout(location = 0) in vec3 a_direction;
 layout(location = 1) in vec3 a_from;
@@ -34,6 +35,6 @@ void main() {
     v_north = a_north;
     v_bend = a_bend;
     v_glitter = a_glitter;
-    gl_Position = u_clip_from_mesh * vec4(a_direction, 1.0);
+    gl_Position = placed(u_clip_from_mesh * vec4(a_direction, 1.0));
     v_dither_phase_w = dot((gl_Position.xy + gl_Position.w) * u_half_size_px, kDitherStep);
 }

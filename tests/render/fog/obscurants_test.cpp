@@ -7,6 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "render/weather_area.h"
+
 namespace skyig::render::fog {
 namespace {
 
@@ -68,7 +70,7 @@ TEST(MeanExtinction, IsThatOfTheMeanTransmittanceOfPatches) {
     EXPECT_NEAR(std::exp(-mean_extinction_per_m(thick) * 60.0), 0.6, 1e-9);
 }
 
-TEST(AreaShare, IsOneInsideAndFallsOverThePerimeter) {
+TEST(AreaWeight, IsOneInsideAndFallsOverThePerimeter) {
     // 4 km by 2 km with its long side to the north-east, corners of 500 m, 1 km of perimeter.
     WeatherArea area{.centre_m = {1000.0, 2000.0},
                      .axis_rad = 0.25 * std::numbers::pi,
@@ -77,15 +79,15 @@ TEST(AreaShare, IsOneInsideAndFallsOverThePerimeter) {
                      .perimeter_m = 1000.0};
     const glm::dvec2 along{std::sqrt(0.5), std::sqrt(0.5)};
     const glm::dvec2 across{std::sqrt(0.5), -std::sqrt(0.5)};
-    EXPECT_EQ(area_share(area, area.centre_m), 1.0);
-    EXPECT_EQ(area_share(area, area.centre_m + 2499.0 * along), 1.0);
-    EXPECT_NEAR(area_share(area, area.centre_m + 3000.0 * along), 0.5, 1e-12);
-    EXPECT_NEAR(area_share(area, area.centre_m + 2000.0 * across), 0.5, 1e-12);
-    EXPECT_EQ(area_share(area, area.centre_m + 3501.0 * along), 0.0);
+    EXPECT_EQ(area_weight(area, area.centre_m), 1.0);
+    EXPECT_EQ(area_weight(area, area.centre_m + 2499.0 * along), 1.0);
+    EXPECT_NEAR(area_weight(area, area.centre_m + 3000.0 * along), 0.5, 1e-12);
+    EXPECT_NEAR(area_weight(area, area.centre_m + 2000.0 * across), 0.5, 1e-12);
+    EXPECT_EQ(area_weight(area, area.centre_m + 3501.0 * along), 0.0);
     // Beside a corner the distance counts.
-    EXPECT_NEAR(area_share(area, area.centre_m + 2600.0 * along + 1800.0 * across), 0.5, 1e-12);
+    EXPECT_NEAR(area_weight(area, area.centre_m + 2600.0 * along + 1800.0 * across), 0.5, 1e-12);
     area.perimeter_m = 0.0;
-    EXPECT_EQ(area_share(area, area.centre_m + 2501.0 * along), 0.0);
+    EXPECT_EQ(area_weight(area, area.centre_m + 2501.0 * along), 0.0);
 }
 
 }  // namespace

@@ -13,172 +13,14 @@
 #include <vector>
 
 #include "protocol/cigi/message.h"
-#include "server/from_config.h"
+#include "tests/server/loop/loop_fixture.h"
 #include "tests/support/allocation_count.h"
 
 namespace skyig::server {
 namespace {
 
-namespace cigi = protocol::cigi;
-namespace transport = protocol::transport;
+using namespace tests;
 using ::testing::HasSubstr;
-
-constexpr std::int64_t kMs = 1'000'000;
-constexpr transport::Endpoint kHost{0x7F000001, 8005};
-constexpr transport::Endpoint kOther{0x7F000001, 9999};
-
-/// Draws nothing; each piece of a frame takes as long as it is told.
-class FakePainter final : public Painter {
-  public:
-    explicit FakePainter(ManualClock& clock) : clock_(clock) {}
-
-    void prepare(const render::Scene& scene) override {
-        last_scene = scene;
-        clock_.advance_ns(prepare_ns);
-    }
-    void draw(std::size_t /*channel*/) override { clock_.advance_ns(draw_ns); }
-    void read_back(std::size_t channel, std::span<std::byte> rgba) override {
-        std::fill(rgba.begin(), rgba.end(), static_cast<std::byte>(channel + 1));
-    }
-    std::uint64_t gl_errors() const override { return 0; }
-    std::uint64_t resets() const override { return device_resets; }
-    double adaptation_cd_m2() const override { return 100.0; }
-    std::size_t passes(std::span<status::PassState> rows) const override {
-        rows[0] = {"dome", true, "always"};
-        return 1;
-    }
-    std::string description() const override { return "fake"; }
-
-    render::Scene last_scene;
-    std::uint64_t device_resets = 0;
-    std::int64_t prepare_ns = 1 * kMs;
-    std::int64_t draw_ns = 2 * kMs;
-
-  private:
-    ManualClock& clock_;
-};
-
-class FakeWire final : public Wire {
-  public:
-    void open_frame(const FrameMark& mark, std::span<const std::byte> /*message*/) override {
-        last_mark = mark;
-    }
-    void drain(ArrivalTaker& taker) override {
-        for (std::size_t i = 0; i < waiting_count; ++i)
-            taker.take(0, transport::Datagram{waiting_from, 0, std::span(waiting[i])});
-        waiting_count = 0;
-    }
-    bool send(std::size_t /*source*/, const transport::Endpoint& to,
-              std::span<const std::byte> bytes) override {
-        last_to = to;
-        last_bytes = bytes.size();
-        std::copy(bytes.begin(), bytes.end(), last_message.begin());
-        ++sends;
-        return sending_works;
-    }
-    transport::UdpCounters counters() const override { return received; }
-
-    void put(const transport::Endpoint& from, std::span<const std::byte> bytes) {
-        waiting_from = from;
-        waiting[waiting_count++].assign(bytes.begin(), bytes.end());
-    }
-    [[nodiscard]] std::span<const std::byte> last() const {
-        return std::span(last_message).first(last_bytes);
-    }
-
-    std::vector<std::vector<std::byte>> waiting{4, std::vector<std::byte>(256)};
-    std::size_t waiting_count = 0;
-    transport::Endpoint waiting_from;
-    transport::Endpoint last_to;
-    std::array<std::byte, 256> last_message{};
-    std::size_t last_bytes = 0;
-    int sends = 0;
-    bool sending_works = true;
-    transport::UdpCounters received;
-    FrameMark last_mark;
-};
-
-/// A host's message: IG Control and, in Operate, the ownship.
-class Message {
-  public:
-    Message(cigi::Version version, cigi::IgMode mode, std::uint32_t frame, std::uint32_t echo = 0)
-        : writer_(buffer_, version, cigi::ByteOrder::kBig) {
-        cigi::IgControl control;
-        control.minor_version = version == cigi::Version::k33 ? 3 : 0;
-        control.ig_mode = mode;
-        control.host_frame_number = frame;
-        control.last_ig_frame_number = echo;
-        EXPECT_TRUE(writer_.add(control));
-    }
-    // The writer points into the buffer beside it.
-    Message(const Message&) = delete;
-    Message& operator=(const Message&) = delete;
-
-    Message& at(double latitude_deg) {
-        cigi::EntityControl control;
-        control.entity_state = cigi::EntityState::kActive;
-        control.lat_x = latitude_deg;
-        control.lon_y = 7.0;
-        control.alt_z = 500.0;
-        EXPECT_TRUE(writer_.add(control));
-        return *this;
-    }
-    [[nodiscard]] std::span<const std::byte> bytes() const { return writer_.bytes(); }
-
-  private:
-    std::array<std::byte, 256> buffer_{};
-    cigi::MessageWriter writer_;
-};
-
-class FrameLoopTest : public ::testing::Test {
-  protected:
-    FrameLoopTest() {
-        config_.daemon.rate_hz = 100.0;
-        config_.start.utc = config::UtcDateTime{2026, 6, 21, 12, 0, 0.0};
-        config_.channels.front().width_px = 8;
-        config_.channels.front().height_px = 4;
-    }
-
-    FrameLoop& loop(std::uint64_t frames = 0, ImageWriter* images = nullptr, std::uint64_t every = 1) {
-        world_ = std::make_unique<world::World>(config_, start_time(config_.start, clock_), log_);
-        loop_ = std::make_unique<FrameLoop>(config_,
-                                            FrameLoopParts{clock_, log_, pace_, link_, *world_, painter_,
-                                                           images, nullptr, nullptr, status_.get()},
-                                            frames, every);
-        return *loop_;
-    }
-
-    cigi::StartOfFrame last_answer(cigi::Version version) const {
-        struct {
-            cigi::StartOfFrame start_of_frame;
-            void operator()(const cigi::StartOfFrame& packet) { start_of_frame = packet; }
-        } handler;
-        cigi::Counters counters;
-        const cigi::MessageSummary summary = cigi::decode_ig_message(link_.last(), handler, counters);
-        EXPECT_TRUE(summary.accepted);
-        EXPECT_EQ(summary.version, version);
-        return handler.start_of_frame;
-    }
-
-    static std::uint64_t count(const std::vector<NamedCount>& counts, const std::string& name) {
-        for (const NamedCount& count : counts) {
-            if (count.name == name) return count.count;
-        }
-        ADD_FAILURE() << "no count " << name;
-        return 0;
-    }
-
-    std::vector<std::string> lines_;
-    config::Config config_ = config::default_config();
-    ManualClock clock_{5'000'000'000};
-    Log log_{clock_, [this](Severity, std::string_view line) { lines_.emplace_back(line); }};
-    ClockPace pace_{clock_, 100.0};
-    FakeWire link_;
-    FakePainter painter_{clock_};
-    std::unique_ptr<world::World> world_;
-    std::unique_ptr<status::SnapshotExchange> status_ = std::make_unique<status::SnapshotExchange>();
-    std::unique_ptr<FrameLoop> loop_;
-};
 
 TEST_F(FrameLoopTest, RunsTheFramesAskedForWithoutAnyHost) {
     loop(30).run([] { return false; });
@@ -274,6 +116,51 @@ TEST_F(FrameLoopTest, TellsEachResetOfTheDeviceOnce) {
     ASSERT_EQ(lines_.size(), 1U) << ::testing::PrintToString(lines_);
     EXPECT_THAT(lines_[0], HasSubstr("the graphics device was reset"));
     EXPECT_EQ(loop_->report().gl_resets, 1U);
+}
+
+TEST_F(FrameLoopTest, NamesAChannelThatCannotBeDrawn) {
+    loop();
+    loop_->run_frame();
+    EXPECT_TRUE(lines_.empty()) << ::testing::PrintToString(lines_);
+    painter_.channel_health.failed = true;
+    painter_.channel_health.failures = 1;
+    painter_.channel_health.set_reason("out of wonders");
+    for (int i = 0; i < 20; ++i)
+        loop_->run_frame();
+    ASSERT_EQ(lines_.size(), 1U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[0], HasSubstr("channel centre cannot be drawn: out of wonders"));
+    EXPECT_TRUE(status_->newest().health[0].failed);
+    EXPECT_EQ(status_->newest().health[0].reason(), "out of wonders");
+    painter_.channel_health.failed = false;
+    loop_->run_frame();
+    ASSERT_EQ(lines_.size(), 2U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[1], HasSubstr("channel centre is drawn again, after 1 failures"));
+}
+
+TEST_F(FrameLoopTest, OverlayTellsModeRateAndTheHostThatIsLost) {
+    config_.overlay = {.mode = true, .rate = true, .host = true, .host_lost = true};
+    config_.host.rights.lost_after_s = 0.5;
+    loop();
+    const render::Scene& scene = painter_.last_scene;
+    loop_->run_frame();
+    EXPECT_EQ(scene.views[0].overlay, 0b1111);
+    EXPECT_THAT(std::string(scene.overlay.lines[0].text()), HasSubstr("standby 2026-06-21 12:00:00Z"));
+    EXPECT_EQ(scene.overlay.lines[1].text(), "100.0 Hz of 100, 0 left out");
+    EXPECT_EQ(scene.overlay.lines[2].text(), "host waiting");
+    EXPECT_TRUE(scene.overlay.warning.text().empty());
+    link_.put(kHost, Message(cigi::Version::k33, cigi::IgMode::kOperate, 1).bytes());
+    loop_->run_frame();
+    EXPECT_EQ(scene.overlay.lines[2].text(), "host 127.0.0.1:8005 live");
+    for (int i = 0; i < 100; ++i)
+        loop_->run_frame();
+    EXPECT_THAT(std::string(scene.overlay.lines[2].text()), HasSubstr("host 127.0.0.1:8005 lost"));
+    EXPECT_EQ(scene.overlay.warning.text(), "HOST LOST");
+    // Every frame takes two periods and a half: each third place of the grid is left out at least.
+    painter_.draw_ns = 24 * kMs;
+    for (int i = 0; i < 100; ++i)
+        loop_->run_frame();
+    std::printf("%s\n", std::string(scene.overlay.lines[1].text()).c_str());
+    EXPECT_THAT(std::string(scene.overlay.lines[1].text()), HasSubstr("40.0 Hz of 100"));
 }
 
 TEST_F(FrameLoopTest, StopsWhenAsked) {
@@ -468,6 +355,7 @@ TEST_F(FrameLoopTest, PublishesASnapshotTenTimesASecond) {
 }
 
 TEST_F(FrameLoopTest, AllocatesNothingInSteadyState) {
+    config_.overlay = {.mode = true, .rate = true, .host = true, .host_lost = true};
     ImageWriter images("out", render_channels(config_), 2,
                        [](const std::string&, const render::Channel&, std::span<const std::byte>,
                           std::string&) { return true; });

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "protocol/recording/capture_reader.h"
+#include "server/replay.h"
 #include "tests/server/loop/recording_fixture.h"
 #include "tests/support/allocation_count.h"
 
@@ -38,7 +39,7 @@ TEST(Recorder, WritesWhatAnyReaderUnderstands) {
     const std::string path = scratch.file("a.pcapng");
     {
         Recorder recorder(path, config, facts(config));
-        recorder.mark({7, 1, kStartNs}, bytes_of("answer"));
+        recorder.mark({7, 1, 5, kStartNs}, bytes_of("answer"));
         recorder.datagram(0, {kHost, kStartNs + 5, bytes_of("host")});
         recorder.datagram(1, {kInstructor, kStartNs + 6, bytes_of("instructor")});
         recorder.can_frame(3, can_frame(0x123, kStartNs + 7));
@@ -51,7 +52,9 @@ TEST(Recorder, WritesWhatAnyReaderUnderstands) {
     EXPECT_THAT(std::string(reader.section_comment()), HasSubstr("renderer llvmpipe test"));
     const CapturedPacket* packet = reader.next();
     ASSERT_NE(packet, nullptr);
-    EXPECT_EQ(packet->comment, "frame 7 slots 1");
+    EXPECT_EQ(packet->comment, "frame 7 slots 1 thinned 5");
+    ASSERT_TRUE(Replay::mark_of(*packet));
+    EXPECT_EQ(Replay::mark_of(*packet)->thinned, 5U);
     EXPECT_EQ(packet->time_ns, kStartNs);
     EXPECT_EQ(packet->from.port, 8004);
     packet = reader.next();
@@ -83,7 +86,7 @@ TEST(Recorder, CostsItsCallerNeitherMemoryNorWaiting) {
     const auto allocations = skyig::tests::allocation_count_of_this_thread();
     const auto before = std::chrono::steady_clock::now();
     for (std::uint64_t i = 0; i < kFrames; ++i) {
-        recorder.mark({i, 1, kStartNs}, message);
+        recorder.mark({i, 1, 0, kStartNs}, message);
         recorder.datagram(0, {kHost, kStartNs, message});
         recorder.can_frame(2, frame);
     }
@@ -157,7 +160,7 @@ TEST(RecordingWire, HandsOnAndWritesDownTheSame) {
     OneDatagram inner;
     Recorder recorder(scratch.file("a.pcapng"), config, facts(config));
     RecordingWire wire(inner, recorder);
-    wire.open_frame({1, 0, kStartNs}, {});
+    wire.open_frame({1, 0, 0, kStartNs}, {});
     Words live;
     wire.drain(live);
     EXPECT_TRUE(wire.send(0, kHost, {}));

@@ -91,7 +91,7 @@ TEST(RecordingCost, StaysUnderTwoPercentOfAProcessor) {
         const double begin_s = cpu_s(CLOCK_THREAD_CPUTIME_ID);
         inner.drain(nobody);
         const double between_s = cpu_s(CLOCK_THREAD_CPUTIME_ID);
-        wire.open_frame({static_cast<std::uint64_t>(i), 1, kStartNs + i * kFrame_ns}, start_of_frame);
+        wire.open_frame({static_cast<std::uint64_t>(i), 1, 0, kStartNs + i * kFrame_ns}, start_of_frame);
         wire.drain(nobody);
         const double end_s = cpu_s(CLOCK_THREAD_CPUTIME_ID);
         plain_s += between_s - begin_s;

@@ -46,7 +46,7 @@ std::string record(const Scratch& scratch, const config::Config& config) {
     for (std::uint64_t i = 1; i <= 6; ++i) {
         const std::uint64_t slots = i == 1 ? 0 : i == 4 ? 2 : 1;
         now_ns += static_cast<std::int64_t>(slots) * 20 * kMs;
-        recorder.mark({i, slots, now_ns}, bytes_of("answer"));
+        recorder.mark({i, slots, 0, now_ns}, bytes_of("answer"));
         recorder.datagram(0, {kHost, now_ns - 3 * kMs, bytes_of(fmt::format("h{}", i))});
         if (i % 2 == 0) recorder.datagram(1, {kInstructor, now_ns - kMs, bytes_of(fmt::format("i{}", i))});
         if (i % 3 == 0) recorder.can_frame(3, can_frame(static_cast<std::uint32_t>(i), now_ns - 2 * kMs));

@@ -124,6 +124,11 @@ TEST(Account, JsonTellsFramesWorldPlanAndRecorder) {
     EXPECT_EQ(json.at("late_by_cause").at("channels"), 1);
     EXPECT_EQ(json.at("world").at("mode"), "operate");
     EXPECT_EQ(json.at("world").at("sun").at("elevation_deg"), -5.25);
+    EXPECT_EQ(json.at("channels").at(0).at("failures"), 0);
+    EXPECT_EQ(json.at("channels").at(1), (Json{{"name", "right"},
+                                               {"failed", false},
+                                               {"failures", 2},
+                                               {"last_failure", "OpenGL reported an error"}}));
     EXPECT_EQ(json.at("plan").size(), 2U);
     EXPECT_EQ(json.at("plan").at(1).at("reason"), "the sky is too bright");
     EXPECT_EQ(json.at("recorder").at("bytes"), 123456);
@@ -210,6 +215,10 @@ TEST(Health, IsGoodWhileFramesComeAndSaysWhatIsNot) {
     Snapshot snapshot = tests::example_snapshot();
     const std::int64_t end_ns = snapshot.record.end_ns();
     EXPECT_TRUE(health_of(facts, snapshot, end_ns + kSecond / 2).good);
+    snapshot.health[1].failed = true;
+    EXPECT_EQ(health_of(facts, snapshot, end_ns).text,
+              "channel right cannot be drawn: OpenGL reported an error");
+    snapshot.health[1].failed = false;
     const Health stuck = health_of(facts, snapshot, end_ns + 3 * kSecond);
     EXPECT_FALSE(stuck.good);
     EXPECT_EQ(stuck.text, "no frame for 3.0 s");

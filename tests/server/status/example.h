@@ -45,6 +45,8 @@ inline Snapshot example_snapshot() {
         snapshot.record.add(parts, i == 301, 0.02);
     }
     snapshot.frame = {5.0, 5.0, 30.0};
+    snapshot.health[1].failures = 2;
+    snapshot.health[1].set_reason("OpenGL reported an error");
     snapshot.world.mode = protocol::cigi::IgMode::kOperate;
     snapshot.world.sun_elevation_deg = -5.25;
     snapshot.world.adaptation_cd_m2 = 3.5;

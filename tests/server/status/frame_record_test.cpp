@@ -21,23 +21,73 @@ namespace {
 constexpr std::int64_t kMs = 1'000'000;
 constexpr double kPeriod_s = 0.01;
 
+FrameParts own(std::int64_t input_ms, std::int64_t shared_ms, std::int64_t channels_ms,
+               std::int64_t output_ms) {
+    FrameParts parts;
+    parts.input_ns = input_ms * kMs;
+    parts.shared_ns = shared_ms * kMs;
+    parts.channels_ns = channels_ms * kMs;
+    parts.output_ns = output_ms * kMs;
+    return parts;
+}
+
 TEST(FrameRecord, NamesTheLongestPartAsTheCauseOfALateFrame) {
-    EXPECT_EQ(late_cause({0, 12 * kMs, 1 * kMs, 2 * kMs, 1 * kMs}, kPeriod_s), LateCause::kInput);
-    EXPECT_EQ(late_cause({0, 1 * kMs, 12 * kMs, 2 * kMs, 1 * kMs}, kPeriod_s), LateCause::kShared);
-    EXPECT_EQ(late_cause({0, 1 * kMs, 5 * kMs, 6 * kMs, 1 * kMs}, kPeriod_s), LateCause::kChannels);
-    EXPECT_EQ(late_cause({0, 1 * kMs, 5 * kMs, 6 * kMs, 7 * kMs}, kPeriod_s), LateCause::kOutput);
-    EXPECT_EQ(late_cause({0, 1 * kMs, 1 * kMs, 6 * kMs, 1 * kMs}, kPeriod_s), LateCause::kStart);
+    EXPECT_EQ(late_cause(own(12, 1, 2, 1), kPeriod_s), LateCause::kInput);
+    EXPECT_EQ(late_cause(own(1, 12, 2, 1), kPeriod_s), LateCause::kShared);
+    EXPECT_EQ(late_cause(own(1, 5, 6, 1), kPeriod_s), LateCause::kChannels);
+    EXPECT_EQ(late_cause(own(1, 5, 6, 7), kPeriod_s), LateCause::kOutput);
+    FrameParts rebuilt = own(1, 12, 2, 1);
+    rebuilt.rebuilt = true;
+    EXPECT_EQ(late_cause(rebuilt, kPeriod_s), LateCause::kRebuild);
+}
+
+TEST(FrameRecord, WaitsAreTheCauseOfWhatWouldHaveFittedWithoutThem) {
+    FrameParts parts = own(1, 1, 6, 1);
+    parts.host_ns = 4 * kMs;
+    EXPECT_EQ(late_cause(parts, kPeriod_s), LateCause::kHost);
+    parts.display_ns = 5 * kMs;
+    EXPECT_EQ(late_cause(parts, kPeriod_s), LateCause::kDisplay);
+    parts.channels_ns = 9 * kMs;
+    EXPECT_EQ(late_cause(parts, kPeriod_s), LateCause::kChannels);
+}
+
+TEST(FrameRecord, TheMachineIsTheCauseOfWhatTookLessProcessorTimeThanThePeriod) {
+    FrameParts parts = own(1, 1, 20, 1);
+    parts.processor_ns = 9 * kMs;
+    EXPECT_EQ(late_cause(parts, kPeriod_s), LateCause::kMachine);
+    parts.processor_ns = 11 * kMs;
+    EXPECT_EQ(late_cause(parts, kPeriod_s), LateCause::kChannels);
+    // Within its period: it was woken late.
+    EXPECT_EQ(late_cause(own(1, 1, 6, 1), kPeriod_s), LateCause::kMachine);
 }
 
 TEST(FrameRecord, CountsALateFrameForTheOneBefore) {
     FrameRecord record;
-    record.add({0, 0, 15 * kMs, 0, 0}, false, kPeriod_s);
-    record.add({15 * kMs, 0, 0, 1 * kMs, 0}, true, kPeriod_s);
-    record.add({20 * kMs, 0, 0, 1 * kMs, 0}, false, kPeriod_s);
+    FrameParts parts = own(0, 15, 0, 0);
+    record.add(parts, false, kPeriod_s);
+    parts = own(0, 0, 1, 0);
+    parts.start_ns = 15 * kMs;
+    record.add(parts, true, kPeriod_s);
+    parts.start_ns = 20 * kMs;
+    record.add(parts, false, kPeriod_s);
     EXPECT_EQ(record.late(LateCause::kShared), 1U);
     EXPECT_EQ(record.late(LateCause::kChannels), 0U);
     EXPECT_EQ(record.recent().late, 1U);
     EXPECT_EQ(record.end_ns(), 21 * kMs);
+}
+
+TEST(FrameRecord, AChainOfLateFramesCountsForWhatBeganIt) {
+    FrameRecord record;
+    record.add(own(0, 0, 25, 0), false, kPeriod_s);
+    for (int i = 0; i < 3; ++i)
+        record.add(own(0, 8, 1, 0), true, kPeriod_s);
+    EXPECT_EQ(record.late(LateCause::kChannels), 3U);
+    record.add(own(0, 8, 1, 0), false, kPeriod_s);
+    FrameParts waited = own(0, 1, 1, 0);
+    waited.host_ns = 9 * kMs;
+    record.add(waited, false, kPeriod_s);
+    record.add(own(0, 1, 1, 0), true, kPeriod_s);
+    EXPECT_EQ(record.late(LateCause::kHost), 1U);
 }
 
 TEST(FrameRecord, TellsTheLastFramesExactly) {
@@ -48,7 +98,10 @@ TEST(FrameRecord, TellsTheLastFramesExactly) {
     std::vector<double> all_ms;
     for (std::int64_t i = 0; i < 1500; ++i) {
         const std::int64_t took_ns = durations(random);
-        record.add({i * 10 * kMs, 0, 0, took_ns, 0}, false, kPeriod_s);
+        FrameParts parts;
+        parts.start_ns = i * 10 * kMs;
+        parts.channels_ns = took_ns;
+        record.add(parts, false, kPeriod_s);
         all_ms.push_back(static_cast<double>(took_ns) * 1e-6);
     }
     std::vector<double> last(all_ms.end() - FrameRecord::kKept, all_ms.end());

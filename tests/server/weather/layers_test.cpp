@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "render/weather_area.h"
+#include "server/start_weather/start_weather.h"
 #include "tests/server/weather/weather_bench.h"
 
 namespace skyig::server::weather {
@@ -44,6 +46,80 @@ TEST(Layers, AStormFortyKilometresAheadIsThere) {
     EXPECT_EQ(bench.weather().lightnings[0].layer, 0U);
     EXPECT_EQ(bench.weather().obscurant_count, 1U) << "its rain dims the view";
     EXPECT_EQ(bench.weather().precipitation_count, 0U) << "and does not fall here";
+}
+
+config::Config with_area(const config::WeatherArea& area) {
+    config::Config config = world::three_channels();
+    config.weather.areas.push_back(area);
+    return config;
+}
+
+TEST(Layers, AnAreaOfTheSettingsIsTheRegionThatAHostWouldMake) {
+    config::WeatherArea area;
+    area.latitude_deg = kLat + 0.35980;
+    area.longitude_deg = kLon;
+    area.rotation_deg = 90.0;
+    area.half_length_m = 9e3;
+    area.half_width_m = 5e3;
+    area.corner_radius_m = 1e3;
+    area.perimeter_m = 2e3;
+    config::WeatherLayer storm;
+    storm.type = config::LayerType::kCumulonimbus;
+    storm.base_m = 600.0;
+    storm.thickness_m = 500.0;
+    storm.coverage = 0.75;
+    area.layers = {storm};
+    WeatherBench bench(with_area(area));
+    bench.frame();
+    ASSERT_EQ(bench.weather().cloud_count, 1U);
+    ASSERT_TRUE(bench.weather().clouds[0].area);
+    // Its length lies east and west: 40 km north of the eye, 5 km to the edge.
+    EXPECT_NEAR(render::area_distance_m(*bench.weather().clouds[0].area, {0.0, 0.0}), 35e3, 30.0);
+    EXPECT_NEAR(render::area_distance_m(*bench.weather().clouds[0].area, {20e3, 40e3}), 11e3, 30.0);
+
+    WeatherBench told;
+    cigi::EnvRegionControl by_host = region(1, area.latitude_deg, kLon, 18e3F, 2e3F);
+    by_host.size_y = 10e3F;
+    by_host.corner_radius = 1e3F;
+    by_host.rotation = 90.0F;
+    told.send(by_host, in_region(cloud(1, CloudType::kCumulonimbus, 600.0F, 75.0F), 1));
+    told.settle();
+    EXPECT_EQ(*told.weather().clouds[0].area, *bench.weather().clouds[0].area);
+    EXPECT_EQ(told.weather().clouds[0].coverage, bench.weather().clouds[0].coverage);
+    EXPECT_EQ(told.weather().clouds[0].base_m, bench.weather().clouds[0].base_m);
+}
+
+TEST(Layers, AreasOfTheSettingsTakeFreeIdsAndComeBackInStandby) {
+    config::WeatherArea area;
+    area.latitude_deg = kLat;
+    area.longitude_deg = kLon;
+    area.half_length_m = area.half_width_m = 10e3;
+    config::WeatherLayer layer;
+    layer.base_m = 1000.0;
+    layer.thickness_m = 500.0;
+    area.layers = {layer};
+    config::Config config = with_area(area);
+    area.id = 1;
+    area.layers[0].type = config::LayerType::kStratus;
+    config.weather.areas.push_back(area);
+    const StartWeather start = start_weather(config);
+    ASSERT_EQ(start.regions.size(), 2U);
+    EXPECT_EQ(start.regions[0].region_id, 2U);
+    EXPECT_EQ(start.regions[1].region_id, 1U);
+    WeatherBench bench(config);
+    bench.frame();
+    EXPECT_EQ(bench.weather().cloud_count, 1U) << "the later area covers the earlier one";
+    EXPECT_EQ(coverage_of(bench, CloudGenus::kStratus), 1.0);
+    cigi::EnvRegionControl gone = region(1, kLat, kLon, 20e3F);
+    gone.region_state = cigi::RegionState::kDestroyed;
+    bench.send(gone);
+    bench.settle();
+    EXPECT_EQ(coverage_of(bench, CloudGenus::kStratus), 0.0);
+    EXPECT_EQ(coverage_of(bench, CloudGenus::kCumulus), 1.0);
+    bench.host.mode = cigi::IgMode::kStandby;
+    bench.send();
+    bench.frame();
+    EXPECT_EQ(coverage_of(bench, CloudGenus::kStratus), 1.0);
 }
 
 TEST(Layers, GlobalLayersGiveWayToARegionsAtTheEye) {

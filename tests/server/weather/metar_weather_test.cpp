@@ -10,6 +10,7 @@
 
 #include "protocol/metar/decode.h"
 #include "render/precipitation/extinction.h"
+#include "server/start_weather/start_weather.h"
 
 namespace skyig::server {
 namespace {
@@ -254,6 +255,18 @@ TEST(MetarWeather, WithoutABaseATowerStandsOnTheDewPointSpread) {
     const MetarWeather made = of("METAR EDDF 011200Z AUTO 9999 //////TCU 20/12 Q1013");
     ASSERT_EQ(made.layers.size(), 1U);
     EXPECT_DOUBLE_EQ(made.layers[0].base_m, 1000.0);
+}
+
+TEST(MetarWeather, GroupsOfNoKnownKindAreNamed) {
+    config::Config config = config::default_config();
+    config.weather.metar = "METAR LSZH 011250Z 24012KT XYZZY 9999 QQ FEW025 15/08 Q1018 NOSIG RMK WHAT";
+    EXPECT_EQ(metar_fault(config, "a.toml"), "");
+    EXPECT_EQ(metar_left_out(config, "a.toml"),
+              "a.toml: weather.metar: 'XYZZY', 'QQ': of no known kind, left out");
+    config.weather.metar = "METAR LSZH 011250Z 24012KT 9999 FEW025 15/08 Q1018 NOSIG RMK WHAT";
+    EXPECT_EQ(metar_left_out(config, "a.toml"), "");
+    config.weather.metar.clear();
+    EXPECT_EQ(metar_left_out(config, "a.toml"), "");
 }
 
 }  // namespace

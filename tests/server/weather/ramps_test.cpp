@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
+#include "render/weather_ramp.h"
 #include "tests/server/weather/weather_bench.h"
 
 namespace skyig::server::weather {
@@ -35,7 +37,8 @@ TEST(Ramps, ACloudGrowsEvenlyAndEndsWhereItWasTold) {
     }
     std::printf("  0 to 80 %% in %d frames, largest step %.3f %%\n", frames, 100.0 * largest);
     EXPECT_NEAR(frames * kFrame_s, 10.0, 2.0 * kFrame_s);
-    EXPECT_LE(largest, 0.8 * kPart * 1.001);
+    // The first clouds take longer than their part.
+    EXPECT_LE(largest, render::CoverScale::place_of(0.8) * kPart * 1.001);
     EXPECT_EQ(before, static_cast<double>(80.0F) / 100.0);
     EXPECT_EQ(bench.weather().clouds[0].base_m, 1000.0);
 }
@@ -53,16 +56,17 @@ TEST(Ramps, EveryMemberGoesItsWayAndTurnsBackWithoutAStep) {
     changed.transition_band = changed.top_transition_band = 60.0F;
     bench.send(changed);
     render::CloudLayer before = bench.weather().clouds[0];
-    double base_step_m = 0.0, extinction_step = 0.0;
+    double base_step_m = 0.0, extinction_step_ln = 0.0;
     for (int i = 0; i < 300; ++i) {
         if (i == 150) bench.send(layer);
         const render::CloudLayer& now = bench.frame(kFrame_s).weather.clouds[0];
         base_step_m = std::max(base_step_m, std::abs(now.base_m - before.base_m));
-        extinction_step = std::max(extinction_step, std::abs(now.extinction_per_m - before.extinction_per_m));
+        extinction_step_ln =
+            std::max(extinction_step_ln, std::abs(std::log(now.extinction_per_m / before.extinction_per_m)));
         before = now;
     }
     EXPECT_LE(base_step_m, 600.0 * kPart * 1.001);
-    EXPECT_LE(extinction_step, (3.0 / 50.0 - 3.0 / 500.0) * kPart * 1.001);
+    EXPECT_LE(extinction_step_ln, std::log(500.0 / 50.0) * kPart * 1.02);
     EXPECT_GT(before.base_m, 300.0);
     bench.settle();
     EXPECT_EQ(bench.weather().clouds[0].base_m, 300.0);
@@ -77,19 +81,19 @@ TEST(Ramps, ACloudThatIsToldAVisibilityGoesThereEvenlyFromWhatItsGenusHas) {
         const double own = bench.weather().clouds[0].extinction_per_m;
         layer.visibility = 20.0F;
         const double told = -std::log(0.05) / 20.0;
-        double before = own, largest = 0.0;
+        double before = own, largest_ln = 0.0;
         for (const float visibility_m : {20.0F, 0.0F}) {
             layer.visibility = visibility_m;
             bench.send(layer);
             for (int i = 0; i < 620; ++i) {
                 const double now = bench.frame(kFrame_s).weather.clouds[0].extinction_per_m;
-                largest = std::max(largest, std::abs(now - before));
+                largest_ln = std::max(largest_ln, std::abs(std::log(now / before)));
                 before = now;
             }
             EXPECT_NEAR(before, visibility_m > 0.0F ? told : own, 1e-9);
         }
         EXPECT_GT(own, 0.0);
-        EXPECT_LE(largest, (told - own) * kPart * 1.001);
+        EXPECT_LE(largest_ln, std::log(told / own) * kPart * 1.05);
     }
 }
 
@@ -121,14 +125,18 @@ TEST(Ramps, AnotherGenusFadesInWhileTheOldFadesOut) {
     for (int i = 0; i < 5; ++i)
         bench.frame(1.0);
     ASSERT_EQ(bench.weather().cloud_count, 2U);
-    for (const render::CloudLayer& cloud : bench.weather().all_clouds())
-        EXPECT_NEAR(cloud.coverage, cloud.genus == CloudGenus::kStratus ? 0.5 : 0.25, 1e-6);
+    // Half of the way, in which the first clouds and the last gaps have more time.
+    using Scale = render::CoverScale;
+    for (const render::CloudLayer& cloud : bench.weather().all_clouds()) {
+        const double all = cloud.genus == CloudGenus::kStratus ? 1.0 : 0.5;
+        EXPECT_NEAR(cloud.coverage, Scale::value_at(0.5 * Scale::place_of(all)), 1e-6);
+    }
     bench.settle();
     ASSERT_EQ(bench.weather().cloud_count, 1U);
     EXPECT_EQ(bench.weather().clouds[0].genus, CloudGenus::kStratus);
 }
 
-TEST(Ramps, AVisibilityOfTheAirChangesAsExtinction) {
+TEST(Ramps, AVisibilityOfTheAirChangesEvenlyAsWhatIsSeenThroughIt) {
     WeatherBench bench;
     cigi::AtmosphereControl air;
     air.model_enable = true;
@@ -142,10 +150,46 @@ TEST(Ramps, AVisibilityOfTheAirChangesAsExtinction) {
     bench.send(air);
     for (int i = 0; i < 5; ++i)
         bench.frame(1.0);
-    EXPECT_NEAR(1.0 / bench.scene.air.visibility_m, 0.5 * (1.0 / 50e3 + 1.0 / 2e3), 1e-12);
+    // Half way of the logarithms, but for the clear air that is never told.
+    const double clear = 2e-5, depth = -std::log(0.05);
+    const double half = std::sqrt((clear + depth / 50e3) * (clear + depth / 2e3)) - clear;
+    EXPECT_NEAR(depth / bench.scene.air.visibility_m, half, 1e-12);
     bench.settle();
     EXPECT_EQ(bench.scene.air.visibility_m, 2000.0);
     EXPECT_EQ(bench.weather().obscurant_count, 0U);
+}
+
+/// Black things far and near, as a fog of 300 m comes over air of 50 km and goes, in a minute.
+TEST(Ramps, FogComesAndGoesWithoutStepsAtAnyDistance) {
+    config::Config config = world::three_channels();
+    config.weather.transition_s = 60.0;
+    config.air.visibility_m = 50e3;
+    WeatherBench bench(config);
+    bench.frame();
+    WeatherControl fog = cloud(0, CloudType::kNone, -1000.0F, 100.0F);
+    fog.thickness = 3000.0F;
+    fog.visibility = 300.0F;
+    double largest = 0.0;
+    const auto passed = [&](double distance_m) {
+        double extinction = -std::log(0.05) / bench.scene.air.visibility_m;
+        for (const render::Obscurant& shown : bench.weather().all_obscurants())
+            extinction += shown.extinction_per_m;
+        return std::exp(-extinction * distance_m);
+    };
+    for (const bool comes : {true, false}) {
+        fog.weather_enable = comes;
+        bench.send(fog);
+        for (int i = 0; i < 3700; ++i) {
+            const std::array before{passed(100.0), passed(1e3), passed(1e4), passed(5e4)};
+            bench.frame(kFrame_s);
+            const std::array after{passed(100.0), passed(1e3), passed(1e4), passed(5e4)};
+            for (std::size_t k = 0; k < before.size(); ++k)
+                largest = std::max(largest, std::abs(after[k] - before[k]));
+        }
+        EXPECT_EQ(bench.weather().obscurant_count, comes ? 1U : 0U);
+    }
+    std::printf("  largest step of what passes %.3f/255\n", 255.0 * largest);
+    EXPECT_LT(255.0 * largest, 0.3);
 }
 
 TEST(Ramps, AirThickerThanTheTablesGoesOverIntoFogWithoutAStep) {
@@ -158,18 +202,18 @@ TEST(Ramps, AirThickerThanTheTablesGoesOverIntoFogWithoutAStep) {
     air.visibility = 200.0F;
     bench.send(air);
     const double depth = -std::log(0.05);
-    double before = depth / 1100.0, largest = 0.0;
+    double before = depth / 1100.0, largest_ln = 0.0;
     for (int i = 0; i < 620; ++i) {
         bench.frame(kFrame_s);
         double now = depth / bench.scene.air.visibility_m;
         for (const render::Obscurant& fog : bench.weather().all_obscurants())
             now += fog.extinction_per_m;
         EXPECT_GE(now, before - 1e-15);
-        largest = std::max(largest, now - before);
+        largest_ln = std::max(largest_ln, std::log(now / before));
         before = now;
     }
     EXPECT_NEAR(before, depth / 200.0, 1e-12);
-    EXPECT_LE(largest, (depth / 200.0 - depth / 1100.0) * kPart * 1.001);
+    EXPECT_LE(largest_ln, std::log(1100.0 / 200.0) * kPart * 1.01);
     EXPECT_EQ(bench.scene.air.visibility_m, 1000.0);
 }
 

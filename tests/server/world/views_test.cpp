@@ -87,24 +87,60 @@ TEST(Views, DefinitionThatLeavesNoPictureKeepsTheFrustum) {
     EXPECT_EQ(views.apply(definition), ViewResult::kUnknownView);
 }
 
-TEST(Views, MirrorAndParallelProjectionAreKeptButNotDrawn) {
+TEST(Views, DefinitionSaysHowAViewIsShown) {
+    Views views(three_channels().channels);
+    ViewDefinition definition;
+    definition.view_id = 1;
+    definition.mirror_mode = 3;
+    definition.pixel_replication = 2;
+    definition.projection_type = true;
+    definition.top_enable = true;
+    definition.top = 10.0F;
+    EXPECT_EQ(views.apply(definition), ViewResult::kDone);
+    const View& view = views.all()[0];
+    EXPECT_EQ(view.mirror_mode, 3);
+    EXPECT_EQ(view.pixel_replication, 2);
+    EXPECT_TRUE(view.orthographic);
+    EXPECT_EQ(view.half_angles.top_deg, 10.0);
+    definition.mirror_mode = 0;
+    definition.pixel_replication = 0;
+    definition.projection_type = false;
+    EXPECT_EQ(views.apply(definition), ViewResult::kDone);
+    EXPECT_EQ(view.mirror_mode, 0);
+    EXPECT_FALSE(view.orthographic);
+}
+
+TEST(Views, ReplicationThatNoStandardSaysIsRefusedWhole) {
     Views views(three_channels().channels);
     ViewDefinition definition;
     definition.view_id = 1;
     definition.mirror_mode = 1;
-    definition.top_enable = true;
-    definition.top = 10.0F;
-    EXPECT_EQ(views.apply(definition), ViewResult::kMirrored);
-    EXPECT_EQ(views.all()[0].mirror_mode, 1);
-    EXPECT_EQ(views.all()[0].half_angles.top_deg, 10.0);
-    definition.projection_type = true;
-    definition.top = 20.0F;
-    EXPECT_EQ(views.apply(definition), ViewResult::kOrthographic);
-    EXPECT_TRUE(views.all()[0].orthographic);
-    EXPECT_EQ(views.all()[0].half_angles.top_deg, 10.0);
-    views.reset();
+    definition.pixel_replication = 4;
+    EXPECT_EQ(views.apply(definition), ViewResult::kReplication);
+    EXPECT_EQ(views.all()[0].pixel_replication, 0);
     EXPECT_EQ(views.all()[0].mirror_mode, 0);
-    EXPECT_FALSE(views.all()[0].orthographic);
+}
+
+TEST(Views, PatternsAreShownByViewByGroupOrInAll) {
+    config::Config config = three_channels();
+    config.channels[0].group_id = config.channels[2].group_id = 4;
+    config.channels[1].pattern = config::Pattern::kGrid;
+    Views views(config.channels);
+    const auto shown = [&views](std::size_t i) { return views.all()[i].pattern; };
+    EXPECT_EQ(shown(1), config::Pattern::kGrid);
+    EXPECT_TRUE(views.show_pattern(1, config::Pattern::kChecker));
+    EXPECT_FALSE(views.show_pattern(44, config::Pattern::kChecker));
+    EXPECT_EQ(shown(0), config::Pattern::kChecker);
+    EXPECT_TRUE(views.show_pattern_in_group(4, config::Pattern::kSeam));
+    EXPECT_FALSE(views.show_pattern_in_group(5, config::Pattern::kWhite));
+    EXPECT_EQ(shown(0), config::Pattern::kSeam);
+    EXPECT_EQ(shown(1), config::Pattern::kGrid);
+    EXPECT_EQ(shown(2), config::Pattern::kSeam);
+    EXPECT_TRUE(views.show_pattern_in_group(0, config::Pattern::kOff));
+    EXPECT_EQ(shown(1), config::Pattern::kOff);
+    views.reset();
+    EXPECT_EQ(shown(0), config::Pattern::kOff);
+    EXPECT_EQ(shown(1), config::Pattern::kGrid);
 }
 
 }  // namespace

@@ -59,6 +59,24 @@ TEST_F(WorldComponentsTest, ComponentsSwitchSkyAndWeather) {
     EXPECT_EQ(bench_.world.counters().component_unknown, 0U);
 }
 
+TEST_F(WorldComponentsTest, ComponentsShowTestPatterns) {
+    const auto shown = [this](std::size_t i) { return bench_.world.views().all()[i].pattern; };
+    bench_.control(ComponentClass::kView, 0, 2, 1);
+    EXPECT_EQ(shown(0), config::Pattern::kOff);
+    EXPECT_EQ(shown(1), config::Pattern::kChecker);
+    bench_.control(ComponentClass::kViewGroup, 0, 0, 5);
+    EXPECT_EQ(shown(0), config::Pattern::kSeam);
+    EXPECT_EQ(shown(2), config::Pattern::kSeam);
+    bench_.control(ComponentClass::kView, 0, 3, 0);
+    EXPECT_EQ(shown(2), config::Pattern::kOff);
+    EXPECT_EQ(bench_.world.counters().component_unknown, 0U);
+    bench_.control(ComponentClass::kView, 0, 3, 10);  // no such pattern
+    bench_.control(ComponentClass::kView, 0, 99, 1);  // no such view
+    bench_.control(ComponentClass::kViewGroup, 0, 7, 1);
+    EXPECT_EQ(bench_.world.counters().component_unknown, 3U);
+    EXPECT_EQ(shown(2), config::Pattern::kOff);
+}
+
 /// The rows of the published table: class and component.
 std::set<std::pair<int, int>> published_components() {
     std::ifstream page(SKYIG_SOURCE_DIR "/docs/protocols.md");
@@ -77,8 +95,12 @@ std::set<std::pair<int, int>> published_components() {
 
 TEST_F(WorldComponentsTest, ComponentsAreThoseOfThePublishedTable) {
     const std::set<std::pair<int, int>> published = published_components();
-    EXPECT_EQ(published.size(), 9U);
-    // Something is there under number 1 of each kind: region, layer, event.
+    EXPECT_EQ(published.size(), 11U);
+    // Something is there under number 1 of each kind: view, view group, region, layer, event.
+    cigi::ViewDefinition grouped;
+    grouped.view_id = 3;
+    grouped.group_id = 1;
+    bench_.send(kHostA, grouped);
     cigi::EnvRegionControl region;
     region.region_id = 1;
     region.region_state = cigi::RegionState::kActive;

@@ -218,9 +218,9 @@ TEST(WorldPackets, ViewsAreMovedAndRefusalsCounted) {
     unknown.view_id = 77;
     ViewControl chase = turn;
     chase.entity_id = 3;
-    ViewDefinition parallel;
-    parallel.view_id = 1;
-    parallel.projection_type = true;
+    ViewDefinition coarse;
+    coarse.view_id = 1;
+    coarse.pixel_replication = 5;
     ViewDefinition mirror;
     mirror.view_id = 3;
     mirror.mirror_mode = 2;
@@ -228,16 +228,16 @@ TEST(WorldPackets, ViewsAreMovedAndRefusalsCounted) {
     narrow.view_id = 3;
     narrow.left_enable = true;
     narrow.left = 40.0F;
-    bench.send(kHostA, turn, unknown, chase, parallel, mirror, narrow);
+    bench.send(kHostA, turn, unknown, chase, coarse, mirror, narrow);
     EXPECT_EQ(bench.world.views().all()[1].pose.yaw_deg, 45.0);
     const Counters& counters = bench.world.counters();
     EXPECT_EQ(counters.unknown_view, 1U);
     EXPECT_EQ(counters.view_entity, 1U);
-    EXPECT_EQ(counters.orthographic, 1U);
-    EXPECT_EQ(counters.mirrored, 1U);
+    EXPECT_EQ(counters.replication_refused, 1U);
     EXPECT_EQ(counters.frustum_refused, 1U);
     EXPECT_EQ(bench.lines_with("view 77: no channel has this view_id"), 1U);
-    EXPECT_EQ(bench.lines_with("view 1: parallel projection"), 1U);
+    EXPECT_EQ(bench.lines_with("view 1: pixel replication 4 to 7"), 1U);
+    EXPECT_EQ(bench.world.views().all()[2].mirror_mode, 2);
     for (int i = 0; i < 100; ++i)
         bench.send(kHostA, unknown);
     EXPECT_EQ(bench.lines_with("no channel has this view_id"), 1U);

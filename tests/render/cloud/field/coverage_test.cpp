@@ -37,6 +37,7 @@ struct Case {
     double thickness_m;
     double extinction_per_m;
     double severity = 0.0;
+    bool sheet = false;
 };
 
 TEST(Coverage, IsWhatIsAskedFor) {
@@ -48,7 +49,14 @@ TEST(Coverage, IsWhatIsAskedFor) {
                                      {CloudGenus::kAltocumulus, "Ac", 350.0, 0.0},
                                      {CloudGenus::kCumulonimbus, "Cb, young", 8000.0, 0.0},
                                      {CloudGenus::kCumulonimbus, "Cb, grown", 8000.0, 0.0, 1.0},
-                                     {CloudGenus::kCirrus, "Ci", 1000.0, 0.01}};
+                                     {CloudGenus::kAltostratus, "As", 1500.0, 0.0},
+                                     {CloudGenus::kNimbostratus, "Ns", 3000.0, 0.0},
+                                     {CloudGenus::kCirrus, "Ci", 1000.0, 0.01},
+                                     {CloudGenus::kCirrostratus, "Cs", 1000.0, 0.01},
+                                     {CloudGenus::kCirrocumulus, "Cc", 250.0, 0.04},
+                                     {CloudGenus::kCirrus, "Ci, sheet", 1000.0, 0.01, 0.0, true},
+                                     {CloudGenus::kCirrostratus, "Cs, sheet", 1000.0, 0.01, 0.0, true},
+                                     {CloudGenus::kCirrocumulus, "Cc, sheet", 250.0, 0.04, 0.0, true}};
     for (const Case& c : cases) {
         double worst = 0.0;
         for (const double asked : {0.1, 0.3, 0.5, 0.7, 0.9}) {
@@ -57,6 +65,7 @@ TEST(Coverage, IsWhatIsAskedFor) {
             CloudLayer layer = layer_of(c.genus, 1000.0, c.thickness_m, asked);
             layer.extinction_per_m = c.extinction_per_m;
             layer.severity = c.severity;
+            if (c.sheet) layer.model = CloudModel::kAuto;
             const Seen measured = straight_down(layer, 1200);
             std::printf("%-10s asked %.0f %%: hidden %5.1f %%, mean opacity %5.1f %%\n", c.name,
                         100.0 * asked, 100.0 * measured.hidden, 100.0 * measured.opacity);

@@ -1,5 +1,6 @@
 // Numerically hard cases of the cloud field: rays that graze, layers at the eye, nothing and too much.
 #include "tests/render/cloud/field/fixture.h"
+#include "tests/render/cloud/field/kernels_double.h"
 
 namespace skyig::render::cloud::field {
 namespace {
@@ -37,6 +38,78 @@ TEST(CloudField, MeetsShellsAsExactlyAsFloatsCan) {
             std::printf("%s, %s: %.3f m, exact %.3f\n", variant->name, shell.name, found, shell.expected_m);
             EXPECT_NEAR(found, shell.expected_m, 0.03 + 3e-5 * shell.expected_m) << shell.name;
         }
+    }
+}
+
+TEST(CloudField, MeetsShellsExactlyInDoubles) {
+    std::printf("%-34s %14s %14s %14s\n", "", "exact", "double", "float");
+    for (const Shell& shell : kShells) {
+        const doubles::Shell exact =
+            doubles::shell(shell.eye_m, shell.low_m, shell.high_m, shell.sine, shell.rising);
+        const double in_double = shell.to_far ? exact.to_m : exact.to_m - exact.from_m;
+        Parts parts{};
+        std::fill(std::begin(parts.sine), std::end(parts.sine), static_cast<float>(shell.sine));
+        portable::kernels().parts(static_cast<float>(shell.eye_m), static_cast<float>(shell.low_m),
+                                  static_cast<float>(shell.high_m), shell.rising, parts);
+        const float in_float = shell.to_far ? parts.to_m[0] : parts.to_m[0] - parts.from_m[0];
+        std::printf("%-34s %14.6f %14.6f %14.6f\n", shell.name, shell.expected_m, in_double,
+                    static_cast<double>(in_float));
+        // As many digits as the expected values and their angles are told with.
+        EXPECT_NEAR(in_double, shell.expected_m, 0.001 + 1e-6 * shell.expected_m) << shell.name;
+    }
+}
+
+struct HardScene {
+    const char* name;
+    Scene scene;
+    std::vector<CloudRay> rays;
+};
+
+std::vector<HardScene> hard_scenes() {
+    const CloudLayer broken = layer_of(CloudGenus::kCumulus, 1200.0, 900.0, 0.5);
+    const CloudLayer thin = layer_of(CloudGenus::kStratus, 4000.0, 30.0, 0.7);
+    CloudLayer sheet = layer_of(CloudGenus::kCirrus, 8000.0, 500.0, 0.6);
+    sheet.model = CloudModel::kAuto;
+    CloudLayer drifted = broken;
+    drifted.drift_m = {24.0 * 3600.0 * 15.0, -24.0 * 3600.0 * 7.0};
+    const std::vector<CloudRay> all = sphere_of_rays(24, 40), level = sphere_of_rays(8, 60, -0.01, 0.03);
+    return {{"no cover", scene_of({layer_of(CloudGenus::kCumulus, 1200.0, 900.0, 0.0)}, 2.0), all},
+            {"all covered", scene_of({layer_of(CloudGenus::kCumulus, 1200.0, 900.0, 1.0)}, 2.0), all},
+            {"depth 1e-6", scene_of({slab_of(1000.0, 500.0, 1e-6)}, 2.0), all},
+            {"depth 1e4", scene_of({slab_of(1000.0, 500.0, 1e4)}, 2.0), all},
+            {"broken, from the ground", scene_of({broken}, 0.0), all},
+            {"broken, at its base", scene_of({broken}, 1200.0), all},
+            {"broken, at its top", scene_of({broken}, 2100.0), all},
+            {"broken, inside", scene_of({broken}, 1600.0), all},
+            {"broken, from 12 km", scene_of({broken}, 12e3), all},
+            {"broken, from 400 km", scene_of({broken}, 400e3), all},
+            {"broken, after a day of wind", scene_of({drifted}, 2.0), all},
+            {"30 m, level rays", scene_of({thin}, 2.0), level},
+            {"30 m, level inside", scene_of({thin}, 4015.0), level},
+            {"sheet", scene_of({sheet}, 2.0), all}};
+}
+
+TEST(CloudField, FloatsMarchAsDoublesDo) {
+    std::printf("%-28s %10s %10s %10s\n", "in 255ths", "mean", "1 in 100", "worst");
+    for (const HardScene& hard : hard_scenes()) {
+        std::vector<std::vector<CloudSample>> seen_by;
+        for (const Kernels* variant : {&portable::kernels(), &doubles::kernels()}) {
+            CloudField field(matrix(), *variant);
+            field.freeze(hard.scene, plain_light());
+            seen_by.push_back(seen(field, hard.rays));
+        }
+        std::vector<double> steps;
+        double sum = 0.0;
+        for (std::size_t i = 0; i < hard.rays.size(); ++i) {
+            steps.push_back(step_255(seen_by[0][i], seen_by[1][i]));
+            sum += steps.back();
+        }
+        std::sort(steps.begin(), steps.end());
+        const double mean = sum / static_cast<double>(steps.size());
+        std::printf("%-28s %10.5f %10.5f %10.5f\n", hard.name, mean, steps[steps.size() * 99 / 100],
+                    steps.back());
+        EXPECT_LT(mean, 0.005) << hard.name;
+        EXPECT_LT(steps.back(), 0.3) << hard.name;
     }
 }
 

@@ -1,0 +1,105 @@
+#include "config/pacing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "config/schema.h"
+
+namespace skyig::config {
+namespace {
+
+constexpr std::array<std::string_view, 3> kPacingNames{"clock", "display", "host"};
+
+std::string all_thinnings() {
+    std::string text;
+    for (const std::string_view name : kThinningNames)
+        text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
+    return text;
+}
+
+void read_order(TableReader& table, std::vector<Thinning>& order) {
+    const Value* value = table.any("order");
+    if (value == nullptr) return;
+    const auto* list = std::get_if<Array>(&value->data);
+    if (list == nullptr) {
+        table.error(
+            *value, "order",
+            fmt::format("is {}; it must be a list of some of {}", type_name(*value), all_thinnings()));
+        return;
+    }
+    for (const Value& item : list->items) {
+        const auto* text = std::get_if<std::string>(&item.data);
+        const auto* const name = text == nullptr
+                                     ? kThinningNames.end()
+                                     : std::find(kThinningNames.begin(), kThinningNames.end(), *text);
+        if (name == kThinningNames.end()) {
+            table.error(
+                item, "order",
+                fmt::format("holds {}; it must be a list of some of {}",
+                            text == nullptr ? std::string(type_name(item)) : fmt::format("\"{}\"", *text),
+                            all_thinnings()));
+            continue;
+        }
+        const auto thinning = static_cast<Thinning>(name - kThinningNames.begin());
+        if (std::find(order.begin(), order.end(), thinning) != order.end()) {
+            table.error(item, "order", fmt::format("holds \"{}\" twice", *text));
+            continue;
+        }
+        order.push_back(thinning);
+    }
+}
+
+}  // namespace
+
+void read_daemon(TableReader& table, Daemon& daemon) {
+    table.number("rate_hz", daemon.rate_hz, {1.0, 240.0, "Hz"});
+    std::size_t index = 0;
+    if (table.choice("pace", index, kPacingNames) != nullptr) daemon.pacing = static_cast<Pacing>(index);
+    double wait_ms = 0.0;
+    const Value* wait = table.number("host_wait_ms", wait_ms, {0.1, 1000.0, "ms"});
+    if (wait != nullptr) daemon.host_wait_ms = wait_ms;
+    const Value* behind = table.integer("host_frames_behind", daemon.host_frames_behind, 0, 2, "frames");
+    if (daemon.pacing != Pacing::kHost) {
+        constexpr std::string_view kOnlyHost = "is of no use unless pace is \"host\"";
+        if (wait != nullptr) table.error(*wait, "host_wait_ms", std::string(kOnlyHost));
+        if (behind != nullptr) table.error(*behind, "host_frames_behind", std::string(kOnlyHost));
+    }
+    double delay_ms = 0.0;
+    if (table.number("display_delay_ms", delay_ms, {0.0, 500.0, "ms"}) != nullptr)
+        daemon.display_delay_ms = delay_ms;
+    table.finish();
+}
+
+void check_pacing(TableReader& daemon, const Config& config) {
+    const Value* pace = daemon.any("pace");
+    if (pace == nullptr) return;
+    if (config.daemon.pacing == Pacing::kDisplay &&
+        (config.output.kind != OutputKind::kWindow || !config.output.vsync)) {
+        daemon.error(*pace, "pace",
+                     "is \"display\", which needs kind = \"window\" and vsync = true in [output]");
+    }
+    if (config.daemon.pacing == Pacing::kHost && !config.host.enabled)
+        daemon.error(*pace, "pace", "is \"host\", but enabled = false in [host]");
+}
+
+void read_overload(TableReader table, Overload& overload) {
+    read_order(table, overload.order);
+    table.number("thin_above_pct", overload.thin_above_pct, {10.0, 200.0, "%"});
+    table.integer("thin_after_frames", overload.thin_after_frames, 1, 10'000, "frames");
+    const Value* below = table.number("return_below_pct", overload.return_below_pct, {5.0, 200.0, "%"});
+    table.integer("return_after_frames", overload.return_after_frames, 1, 1'000'000, "frames");
+    if (overload.return_below_pct >= overload.thin_above_pct) {
+        const Value* at = below != nullptr ? below : table.any("thin_above_pct");
+        if (at != nullptr) {
+            table.error(
+                *at, below != nullptr ? "return_below_pct" : "thin_above_pct",
+                fmt::format("leaves no room between return_below_pct ({:g}) and thin_above_pct ({:g}): "
+                            "what is left out would come and go",
+                            overload.return_below_pct, overload.thin_above_pct));
+        }
+    }
+    table.finish();
+}
+
+}  // namespace skyig::config
