@@ -28,8 +28,8 @@ void number_layers(Setting& setting);
 
 [[nodiscard]] nlohmann::ordered_json to_json(const Setting& setting);
 /// Every member in the ranges of docs/weather.md; what is left out is as in config::Air and
-/// config::WeatherLayer. The error is one line that names the member: "layers[2].top_m is 10; it must be above
-/// base_m".
+/// config::WeatherLayer. The error is one line that names the member: "layers[2].top_m is 10; it must be
+/// above base_m".
 [[nodiscard]] protocol::Result<Setting, std::string> setting_from_json(const nlohmann::ordered_json& json);
 
 /// A preset that is compiled in. \return nothing for any other name

@@ -18,8 +18,9 @@ void add_instructor(CLI::App& app, InstructorOptions& options) {
         ->check(endpoint(false));
     verb.add_option("--listen", options.listen, "where the page is served (127.0.0.1:8080)")
         ->check(endpoint(false));
-    verb.add_option("--token", options.token,
-                    "what a page has to say to be heard, 8 letters and digits at least: they open /#token=TOKEN")
+    verb.add_option(
+            "--token", options.token,
+            "what a page has to say to be heard, 8 letters and digits at least: they open /#token=TOKEN")
         ->envname("SKYIG_INSTRUCTOR_TOKEN");
     verb.add_option("--name", options.names, "a name, without port, that a reverse proxy gives this page")
         ->type_name("NAME");
@@ -36,14 +37,15 @@ void check_instructor(const InstructorOptions& options) {
         return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
                c == '_';
     };
-    const bool good_token =
-        options.token.size() >= kShortestToken && std::all_of(options.token.begin(), options.token.end(), wordlike);
+    const bool good_token = options.token.size() >= kShortestToken &&
+                            std::all_of(options.token.begin(), options.token.end(), wordlike);
     if (!options.token.empty() && !good_token)
         throw CLI::ValidationError("--token", "must have 8 or more letters, digits, '-' and '_'");
     const auto listen = protocol::transport::parse_endpoint(options.listen);
     if (listen && listen->address >> 24U != kLoopbackNet && options.token.empty()) {
         throw CLI::ValidationError(
-            "--listen", "others reach this address: give a --token that pages must know, or listen on 127.0.0.1");
+            "--listen",
+            "others reach this address: give a --token that pages must know, or listen on 127.0.0.1");
     }
 }
 

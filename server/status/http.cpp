@@ -146,8 +146,7 @@ std::string answer_head(const HttpAnswer& answer) {
         "HTTP/1.1 {} {}\r\nContent-Type: {}\r\n{}{}{}Cache-Control: no-store\r\n"
         "X-Content-Type-Options: nosniff\r\nConnection: close\r\n\r\n",
         answer.status, reason_phrase(answer.status), answer.content_type, length,
-        answer.status == 405 ? "Allow: GET, HEAD\r\n" : "",
-        answer.more_fields);
+        answer.status == 405 ? "Allow: GET, HEAD\r\n" : "", answer.more_fields);
 }
 
 }  // namespace skyig::server::status

@@ -59,7 +59,7 @@ export function LinkFacts(props: { status: Status }) {
       <p class="quiet">
         {status.world && <>Mode {status.world.mode}. Weather changes over {status.world.weather.transition_s} s. </>}
         {status.host?.address && <>Host {status.host.address}, {status.host.frames_behind_median} frames behind. </>}
-        {status.said_again > 0 && <>Said again {status.said_again} times. </>}
+        {status.said_again > 0 && <>Said again: {status.said_again}. </>}
         {status.renderer}
       </p>
     </Card>
@@ -73,7 +73,7 @@ export function Plan(props: { status: Status }) {
       <table>
         <tbody>
           {plan.map((pass) => (
-            <tr key={pass.pass} class={pass.needed ? '' : 'off'}><th scope="row">{pass.pass}</th><td>{pass.needed ? 'drawn' : 'not drawn'}</td>
+            <tr key={pass.pass} class={pass.needed ? '' : 'off'}><th scope="row">{pass.pass}</th><td>{pass.needed ? 'drawn' : 'left out'}</td>
               <td>{pass.reason}</td></tr>
           ))}
         </tbody>

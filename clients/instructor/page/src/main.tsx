@@ -35,7 +35,7 @@ function trouble(heard: Heard): string {
   const since = new Date(heard.since).toISOString().slice(11, 19);
   if (!heard.open) return `No connection since ${since} UTC: ${heard.trouble}.`;
   if (heard.status && heard.status.silence !== '') return `The daemon does not answer: ${heard.status.silence}.`;
-  const standby = heard.status?.world?.mode === 'Standby' && heard.status.sources?.some((s) => s.owns.includes('control'));
+  const standby = heard.status?.world?.mode === 'standby' && heard.status.sources?.some((s) => s.owns.includes('control'));
   if (standby && !(heard.status!.weather_shown && heard.status!.clock_shown))
     return 'The host keeps the daemon in Standby: what is set here is shown once it operates.';
   return heard.refused ?? '';
@@ -79,7 +79,6 @@ function App() {
             <Preview channels={status.channels ?? []} pictures={pictures} lively={lively} />
             <Presets hello={hello} state={state} send={send} />
             <LinkFacts status={status} />
-            <Plan status={status} />
           </div>
           <div class="column">
             <Layers state={state} status={status} change={change} />
@@ -91,6 +90,7 @@ function App() {
             <Clock state={state} status={status} almanac={heard.almanac} fastest={hello.fastest} send={send} />
             <Report metar={heard.metar} send={send} />
             <Flight />
+            <Plan status={status} />
           </div>
         </main>
       )}
