@@ -146,7 +146,7 @@ class Program {
         almanac_s_ = time_s;
         const Json& world = station_.status()["world"];
         const auto utc = ephemeris::parse_utc(world.value("utc", std::string()));
-        const Json& place = world["ownship"];
+        const Json place = world.value("ownship", Json::object());
         const ephemeris::Geodetic site{place.value("latitude_deg", 0.0), place.value("longitude_deg", 0.0),
                                        0.0};
         if (!utc || (utc->mjd() == almanac_mjd_ &&

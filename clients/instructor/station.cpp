@@ -50,7 +50,12 @@ Station::Station(SavedSettings saved) : saved_(std::move(saved)) {}
 std::string Station::take(std::string_view message, double time_s) {
     const Json json = Json::parse(message, nullptr, false);
     if (!json.is_object()) return refused("a message is one JSON object");
-    return obey(json, time_s);
+    try {
+        return obey(json, time_s);
+    } catch (const Json::exception& error) {
+        // A member of another type than every page sends.
+        return refused(error.what());
+    }
 }
 
 std::string Station::obey(const Json& message, double time_s) {
