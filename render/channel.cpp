@@ -20,6 +20,14 @@ ImagePlane image_plane(const Frustum& frustum) noexcept {
             std::tan(frustum.top_rad)};
 }
 
+glm::dmat4 clip_from_view(const Frustum& frustum) noexcept {
+    const ImagePlane p = image_plane(frustum);
+    const double width = p.right - p.left;
+    const double height = p.top - p.bottom;
+    return {glm::dvec4{2.0 / width, 0.0, 0.0, 0.0}, glm::dvec4{0.0, 2.0 / height, 0.0, 0.0},
+            glm::dvec4{(p.right + p.left) / width, (p.top + p.bottom) / height, 0.0, -1.0}, glm::dvec4{0.0}};
+}
+
 glm::dvec3 view_direction(const Channel& channel, const Frustum& frustum, double x_px, double y_px) noexcept {
     const ImagePlane plane = image_plane(frustum);
     glm::dvec2 at{x_px / channel.width_px, y_px / channel.height_px};

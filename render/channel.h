@@ -88,6 +88,8 @@ struct ImagePlane {
 };
 
 [[nodiscard]] ImagePlane image_plane(const Frustum& frustum) noexcept;
+/// Directions at infinity: z is 0, which no depth range clips; w is the distance along the view axis.
+[[nodiscard]] glm::dmat4 clip_from_view(const Frustum& frustum) noexcept;
 
 /// Direction in the view frame (unit) through image coordinates in pixels, origin at the lower left corner of
 /// the lower left pixel, so that pixel (i, j) has its centre at (i + 0.5, j + 0.5); as its warp shows it.

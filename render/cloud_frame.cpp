@@ -235,7 +235,7 @@ void CloudFrame::refresh_tile(int tile, const SkyLight& light, std::uint64_t ton
     made.flashed = flashed;
     made.clouded = true;
     made.with_clouds = map_.may_show(tile);
-    made.shadow = shaded ? shadow_->now() : GroundShadow::Made{};
+    made.shadow = shaded ? shadow_->as_made() : GroundShadow::Made{};
     made.map = map_.revision();
     made.tone = tone_revision;
     for (std::size_t k = 0; k < map_.parts().size(); ++k)

@@ -35,15 +35,6 @@ namespace skyig::render {
 
 namespace {
 
-// Directions at infinity: z is 0, which no depth range clips; w is the distance along the view axis.
-glm::dmat4 clip_from_view(const Frustum& frustum) {
-    const ImagePlane p = image_plane(frustum);
-    const double width = p.right - p.left;
-    const double height = p.top - p.bottom;
-    return {glm::dvec4{2.0 / width, 0.0, 0.0, 0.0}, glm::dvec4{0.0, 2.0 / height, 0.0, 0.0},
-            glm::dvec4{(p.right + p.left) / width, (p.top + p.bottom) / height, 0.0, -1.0}, glm::dvec4{0.0}};
-}
-
 gl::PixelFormat pixel_format(Target target) {
     switch (target) {
         case Target::kLuminance:

@@ -37,8 +37,8 @@ class CloudMap {
     static constexpr double kMargin_rad = 0.25;
     /// Frames over which a snapshot takes the place of another.
     static constexpr int kBlendFrames = 12;
-    /// The same of clouds that come, go or grow, if the next one's making takes no longer: one blend goes over
-    /// into the next, so that they change by as much in every frame.
+    /// The same of clouds that come, go or grow, if the next one's making takes no longer: one blend goes
+    /// over into the next, so that they change by as much in every frame.
     static constexpr int kGrowthFrames = 60;
     static constexpr float kProbe_rad = 0.03F;
 

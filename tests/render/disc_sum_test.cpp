@@ -86,7 +86,7 @@ TEST_F(DiscSum, SunsPixelsAddUpToItsIlluminanceAtAnyFieldOfView) {
     const double lux = frame.air().direct_sun_xyz(0.0, seen_at.elevation_rad).y;
     const double mean = lux / (std::numbers::pi * std::pow(std::sin(scene.sun.angular_radius_rad), 2.0));
     const double flattened = light.refraction.vertical_scale(seen_at.elevation_rad);
-    SunDisc disc;
+    SunDisc disc{gl::Placement::kFlat};
     for (const double half_width_deg : kHalfWidths_deg) {
         // The sky is left out: it is 1e5 times darker.
         disc.prepare(scene, frame, pixel_rad(half_width_deg), linear_tone(mean), false);
@@ -99,7 +99,7 @@ TEST_F(DiscSum, SunsPixelsAddUpToItsIlluminanceAtAnyFieldOfView) {
 }
 
 TEST_F(DiscSum, MoonsPixelsAddUpToItsIlluminanceAtAnyFieldOfViewAndPhase) {
-    MoonDisc disc;
+    MoonDisc disc{gl::Placement::kFlat};
     SkyFrame frame(undithered(), {});
     for (const double sun_azimuth_deg : {185.0, 90.0, 270.0, 220.0}) {
         Scene scene = make_scene(-2.0, sun_azimuth_deg, 40.0, 10.0, 0.0);
