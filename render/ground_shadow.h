@@ -65,7 +65,9 @@ class GroundShadow {
         glm::dvec2 origin_m{0.0};
         double height_m = 0.0;
     };
-    [[nodiscard]] Made as_made() const noexcept { return {true, map_.revision(), map_.origin_m(), height_m_}; }
+    [[nodiscard]] Made as_made() const noexcept {
+        return {true, map_.revision(), map_.origin_m(), height_m_};
+    }
     /// Whether it still shows what it should from that far. Slow changes are shown every few frames, not in
     /// all parts at once. \param part  its number
     [[nodiscard]] bool serves(const Made& made, double distance_m, int part) const noexcept;

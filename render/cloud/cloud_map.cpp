@@ -267,7 +267,8 @@ void CloudMap::show_near(CloudMaker& maker, const MapFrame& frame) {
     frozen.range = {0.0F, static_cast<float>(kNearRange_m)};
     // All of a tile that is seen is asked for.
     const double margin_rad = 1.5 * kTile * geometry_.worst_texel_rad();
-    near_rays_ = near_.march(maker.freeze(CloudMaker::kNearSlot, frame.moment), frame.views, margin_rad, frozen);
+    near_rays_ =
+        near_.march(maker.freeze(CloudMaker::kNearSlot, frame.moment), frame.views, margin_rad, frozen);
 }
 
 void CloudMap::tell_parts(const MapFrame& frame) noexcept {
