@@ -64,15 +64,6 @@ const CloudLayer* layer_of(const Weather& weather, std::uint32_t seed) noexcept 
     return found == clouds.end() ? nullptr : &*found;
 }
 
-/// Whether the eye was carried to another place since the frame before: no craft covers so much in one. Or
-/// beside a pole, where the directions that the map is fixed to turn under the eye.
-bool has_leapt(const Eye& before, const Eye& now) noexcept {
-    constexpr double kMostTurn_rad = 0.1;
-    const glm::dvec3 way_m = eye_offset_m(before, now);
-    return std::hypot(way_m.x, way_m.y) > 500.0 + 0.02 * std::abs(now.height_m) ||
-           std::abs(axes_turn_rad(before, now)) > kMostTurn_rad;
-}
-
 /// Where the eye will be; those that come near a pole are not led, for latitude and longitude go on to
 /// nowhere there.
 Eye led(Eye eye, const Eye& motion_a_frame, double frames) noexcept {

@@ -197,7 +197,7 @@ void ShadowMap::level(bool areas) noexcept {
 }
 
 void ShadowMap::update(CloudMaker& maker, const ShadowFrame& frame) {
-    const bool first = !shown_ || frame.jumped;
+    const bool first = !shown_ || frame.jumped || (last_eye_ && has_leapt(*last_eye_, frame.moment.eye));
     if (first) {
         reserve();
         last_eye_.reset();
@@ -238,6 +238,7 @@ void ShadowMap::update(CloudMaker& maker, const ShadowFrame& frame) {
         const auto clouds = frame.moment.scene.weather.all_clouds();
         level(std::ranges::any_of(clouds, [](const CloudLayer& cloud) { return cloud.area.has_value(); }));
         ++revision_;
+        if (first) begun_ = revision_;
     }
     for (std::size_t k = 0; k < kLevels; ++k)
         corners_m_[k] = glm::vec2{origin_m_ + glm::dvec2{low_[k]} * static_cast<double>(kCell_m[k])};

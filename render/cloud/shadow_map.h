@@ -23,7 +23,7 @@ struct ShadowFrame {
     double source_diameter_rad = 0.0093;
     /// What clouds leave of the beam as a mean over the area (CloudShade): shadows and gaps make it up.
     double mean = 1.0;
-    /// Another scene altogether: everything is made at once.
+    /// Another scene altogether: everything is made at once, as it is for an eye that has_leapt().
     bool jumped = false;
 };
 
@@ -57,6 +57,8 @@ class ShadowMap {
 
     /// Rises whenever cells have changed.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
+    /// That with which everything was made at once the last time: nothing from before it is of use.
+    [[nodiscard]] std::uint64_t begun() const noexcept { return begun_; }
     /// Of the lattice from below the eye: what the shown cells have moved by, metres.
     [[nodiscard]] const glm::dvec2& origin_m() const noexcept { return origin_m_; }
     /// The shown cells, a square after the other, the southernmost row first, and where a square begins.
@@ -93,6 +95,7 @@ class ShadowMap {
     float mean_ = 1.0F;
     float contrast_ = 0.0F;
     std::uint64_t revision_ = 0;
+    std::uint64_t begun_ = 0;
 
     // Of the moment in the making.
     const CloudSource* source_ = nullptr;

@@ -37,6 +37,13 @@ double axes_turn_rad(const Eye& from, const Eye& to) noexcept {
     return east_rad * std::sin(glm::radians(0.5 * (from.latitude_deg + to.latitude_deg)));
 }
 
+bool has_leapt(const Eye& before, const Eye& now) noexcept {
+    constexpr double kMostTurn_rad = 0.1;
+    const glm::dvec3 way_m = eye_offset_m(before, now);
+    return std::hypot(way_m.x, way_m.y) > 500.0 + 0.02 * std::abs(now.height_m) ||
+           std::abs(axes_turn_rad(before, now)) > kMostTurn_rad;
+}
+
 void Snapshot::resize(const MapGeometry& geometry, std::size_t probes) {
     probes_.reserve(probes);
     geometry_ = geometry;

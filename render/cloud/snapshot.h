@@ -39,6 +39,9 @@ struct Frozen {
 /// By how much east and north of one eye stand turned against those of another one near by: little but near
 /// poles.
 [[nodiscard]] double axes_turn_rad(const Eye& from, const Eye& to) noexcept;
+/// Whether the eye was carried to another place since the frame before: no craft covers so much in one. Or
+/// beside a pole, where the directions that maps are fixed to turn under the eye.
+[[nodiscard]] bool has_leapt(const Eye& before, const Eye& now) noexcept;
 
 class Snapshot {
   public:

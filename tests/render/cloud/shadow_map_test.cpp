@@ -120,6 +120,30 @@ TEST(ShadowMap, LiesStillOnTheGroundAndDriftsWithTheClouds) {
     EXPECT_LT(worst_step, 0.01);
 }
 
+TEST(ShadowMap, AnEyeThatIsCarriedElsewhereHasItsShadowsAtOnce) {
+    Day day(0.5, 40.0);
+    ShadowMap map;
+    day.update(map, maker(), 0.5);
+    const std::uint64_t before = map.revision();
+    // A host puts the craft 100 km to the north, and then beside the pole and to its other side.
+    for (const glm::dvec2 place :
+         {glm::dvec2{47.4, 7.9}, glm::dvec2{89.999, 0.0}, glm::dvec2{89.999, 90.0}}) {
+        day.scene.eye = {place.x, place.y, 3000.0};
+        day.update(map, maker(), 0.5);
+        ShadowMap anew;
+        day.update(anew, maker(), 0.5);
+        EXPECT_GT(anew.contrast(), 0.1F);
+        double off = 0.0;
+        for (int i = 0; i < 400; ++i) {
+            const glm::vec2 at{31.0F * static_cast<float>(i), -500.0F};
+            off = std::max(off, static_cast<double>(std::abs(map.at(at) - anew.at(at))));
+        }
+        EXPECT_EQ(off, 0.0) << place.x << " " << place.y;
+        EXPECT_EQ(map.begun(), map.revision());
+    }
+    EXPECT_GT(map.begun(), before);
+}
+
 TEST(ShadowMap, GrowingCloudsChangeItWithoutAPop) {
     Day day(0.0, 50.0);
     ShadowMap map;
