@@ -51,6 +51,7 @@ void CloudFrame::resize() {
     // Room for all, of which views see some; what is not used is never touched.
     for (auto& texels : texels_)
         texels.reserve(tiles * kTileFloats);
+    if (serves_things_) things_.reserve(tiles * CloudTile::kThingFloats);
     ++size_revision_;
 }
 
@@ -126,6 +127,7 @@ glm::dvec3 CloudFrame::before_thing(const DeferredAir& air, const glm::dvec3& th
 void CloudFrame::serve_things() noexcept {
     if (serves_things_) return;
     serves_things_ = true;
+    things_.reserve(made_.size() * CloudTile::kThingFloats);
     for (Made& made : made_)
         made.map = 0;
 }
@@ -156,6 +158,12 @@ void CloudFrame::refresh_backdrops(const SkyLight& light, const DeferredAir& air
         made.map = 0;
         ++refreshed;
     }
+}
+
+// Tiles of the upper half end at the level: all that shadows are told of is below it.
+double CloudFrame::shaded_from_m(int tile) const noexcept {
+    const bool below = map_.geometry().corner(tile).lower;
+    return below && shadow_ != nullptr ? shadow_->nearest_m(map_.cone(tile)) : 0.0;
 }
 
 // Whether a tile of the texture still shows what it should: nothing has changed but the eye's place, and that

@@ -106,9 +106,8 @@ class CloudFrame {
     void refresh_tile(int tile, const SkyLight& light, std::uint64_t tone_revision) noexcept;
     [[nodiscard]] bool serves(int tile, std::uint64_t tone_revision) const noexcept;
 
-    [[nodiscard]] double shaded_from_m(int tile) const noexcept {
-        return shadow_ != nullptr ? shadow_->nearest_m(map_.cone(tile)) : 0.0;
-    }
+    /// How far the nearest ground of a tile is that shadows are told of; 0: there is none.
+    [[nodiscard]] double shaded_from_m(int tile) const noexcept;
 
     cloud::CloudMap map_;
     const GroundShadow* shadow_ = nullptr;

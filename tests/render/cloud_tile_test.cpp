@@ -191,6 +191,87 @@ TEST(CloudTiles, ThoseThatAreKeptShowWhatTheyWouldMadeAnew) {
     }
 }
 
+// A sheet above the eye, whose shadows lie below.
+struct Shady {
+    FakeSheet sheet{.wavelength_m = 6000.0, .casts_shadow = true};
+    Scene scene;
+    SkyFrame sky;
+
+    Shady(double latitude_deg, double height_m, double pitch_deg)
+        : scene(make_scene(48.0, 185.0, -10.0, 40.0, height_m)), sky(display(), small_map()) {
+        scene.eye.latitude_deg = latitude_deg;
+        add_view(scene, symmetric_frustum(30.0, 640, 512), view_from_enu(150.0, pitch_deg, 0.0));
+        add_layer(scene, sheet);
+        CloudLayer& layer = scene.weather.clouds[0];
+        layer.coverage = 0.5;
+        layer.base_m = sheet.height_m - 200.0;
+        layer.thickness_m = 400.0;
+        sky.draw_clouds(fake_clouds(sheet));
+        sky.prepare(scene, 1.8e-3);
+    }
+    static DisplaySettings display() {
+        DisplaySettings fixed;
+        fixed.fixed_adaptation_cd_m2 = 1500.0;
+        return fixed;
+    }
+    // Toned in this frame; null: it is not.
+    [[nodiscard]] const float* texels(int tile) const {
+        for (const TonedTile& toned : sky.clouds().toned()) {
+            if (toned.tile == tile && toned.first != TonedTile::kClear)
+                return &sky.clouds().texels(0)[toned.first];
+        }
+        return nullptr;
+    }
+    [[nodiscard]] bool is_lower(int tile) const { return sky.clouds().map().geometry().corner(tile).lower; }
+};
+
+TEST(CloudTiles, AnEyeThatIsCarriedElsewhereSeesTheShadowsThatLieThere) {
+    Shady carried(0.0, 2000.0, -35.0);
+    ASSERT_TRUE(carried.sky.ground_shadow().shown());
+    carried.scene.eye.latitude_deg = 0.9;
+    carried.sky.prepare(carried.scene, 1.8e-3);
+    const Shady anew(0.9, 2000.0, -35.0);
+    double worst = 0.0, least = 1.0, most = 0.0;
+    int tiles = 0;
+    for (const int tile : anew.sky.clouds().map().seen_tiles()) {
+        const float* wanted = anew.texels(tile);
+        if (wanted == nullptr || !anew.is_lower(tile)) continue;
+        const float* is = carried.texels(tile);
+        ASSERT_NE(is, nullptr) << tile;
+        ++tiles;
+        for (std::size_t i = 0; i < CloudFrame::kTileFloats; ++i) {
+            worst = std::max(worst, static_cast<double>(std::abs(is[i] - wanted[i])));
+            if (i % 4 != 1) continue;
+            least = std::min(least, static_cast<double>(wanted[i]));
+            most = std::max(most, static_cast<double>(wanted[i]));
+        }
+    }
+    std::printf("shadows after a leap: off by %.2f codes of %.0f to %.0f, in %d tiles\n", 255.0 * worst,
+                255.0 * least, 255.0 * most, tiles);
+    EXPECT_GT(tiles, 10);
+    EXPECT_GT(255.0 * (most - least), 20.0);
+    EXPECT_LT(255.0 * worst, 1.0);
+}
+
+// Low over the ground a tile above the level holds a little of what lies below it in its cone.
+TEST(CloudTiles, ShadowsThatMoveChangeNoneAboveTheLevel) {
+    Shady shady(0.0, 30.0, 0.0);
+    ASSERT_TRUE(shady.sky.ground_shadow().shown());
+    const std::uint64_t before = shady.sky.ground_shadow().map().revision();
+    std::size_t lower = 0, upper = 0;
+    for (int frame = 0; frame < 80; ++frame) {
+        shady.scene.sun.direction_enu = at(48.02, 185.0);
+        shady.sky.prepare(shady.scene, 1.8e-3);
+        for (const TonedTile& toned : shady.sky.clouds().toned())
+            ++(shady.is_lower(toned.tile) ? lower : upper);
+    }
+    EXPECT_GT(shady.sky.ground_shadow().map().revision(), before);
+    std::printf("the Sun moves by a fiftieth of a degree: %zu tiles below the level, %zu above\n", lower,
+                upper);
+    EXPECT_GT(lower, 0u);
+    EXPECT_EQ(upper, 0u);
+}
+
 // Black fog round the eye: what is seen of it is what the air before it adds.
 TEST(CloudTiles, NearCloudsHaveTheAirBeforeThem) {
     const FakeSheet fog{.light_cd_m2 = glm::vec3{0.0F}, .fog_per_m = 0.01};

@@ -22,6 +22,8 @@ struct FakeSheet {
     glm::vec3 light_cd_m2{6000.0F, 6000.0F, 6500.0F};
     /// Of fog everywhere, in addition; it has light_cd_m2 too.
     double fog_per_m = 0.0;
+    /// What it leaves of a beam falls on the ground, at height 0.
+    bool casts_shadow = false;
 
     /// \param eye_m  east, north, up \param direction  unit vector
     [[nodiscard]] cloud::CloudSample along(const glm::dvec3& eye_m, const glm::dvec3& direction,
@@ -62,6 +64,17 @@ class FakeSource final : public cloud::CloudSource {
                std::span<cloud::CloudSample> out) const noexcept override {
         for (std::size_t i = 0; i < rays.size(); ++i)
             out[i] = sheet.along(eye_m, glm::dvec3{rays[i].direction_enu}, range);
+    }
+
+    void shadow(const cloud::CloudBeam& beam, float /*grain_m*/, std::span<const glm::vec2> ground_m,
+                std::span<float> passed) const noexcept override {
+        for (std::size_t i = 0; i < passed.size(); ++i) {
+            const glm::dvec3 place_m{eye_m.x + static_cast<double>(ground_m[i].x),
+                                     eye_m.y + static_cast<double>(ground_m[i].y), 0.0};
+            passed[i] = sheet.casts_shadow
+                            ? sheet.along(place_m, glm::dvec3{beam.direction_enu}, {0.0F, 1e9F}).transmittance
+                            : 1.0F;
+        }
     }
 };
 
