@@ -172,9 +172,8 @@ void ShadowMap::show(double share) noexcept {
 }
 
 // Brings the mean over the largest square to that of the area: where clouds cast more shadow than their share
-// of the sky, as seen along a low beam, shadows are lightened; where less, gaps are dimmed. Weather that ends
-// somewhere has no such mean.
-void ShadowMap::level(bool areas) noexcept {
+// of the sky, as seen along a low beam, shadows are lightened; where less, gaps are dimmed.
+void ShadowMap::level() noexcept {
     const std::span<const float> largest = std::span{cells_}.subspan((kLevels - 1) * kSquare);
     double sum = 0.0;
     for (const float passed : largest)
@@ -182,11 +181,11 @@ void ShadowMap::level(bool areas) noexcept {
     const auto found = static_cast<float>(sum / static_cast<double>(kSquare));
     float scale = 1.0F;
     float lift = 0.0F;
-    if (!areas && found < mean_ && found < 1.0F) {
-        scale = (1.0F - mean_) / (1.0F - found);
+    if (found < mean_ && found < 1.0F) {
+        scale = 1.0F + levelled_ * ((1.0F - mean_) / (1.0F - found) - 1.0F);
         lift = 1.0F - scale;
-    } else if (!areas && found > mean_) {
-        scale = mean_ / found;
+    } else if (found > mean_) {
+        scale = 1.0F + levelled_ * (mean_ / found - 1.0F);
     }
     double squares = 0.0;
     for (float& passed : cells_) {
@@ -194,6 +193,18 @@ void ShadowMap::level(bool areas) noexcept {
         squares += static_cast<double>((passed - mean_) * (passed - mean_));
     }
     contrast_ = static_cast<float>(std::sqrt(squares / static_cast<double>(cells_.size())));
+}
+
+// Weather that ends somewhere has no mean to be brought to. \return whether it has gone on
+bool ShadowMap::lead_level(const Weather& weather, bool at_once) noexcept {
+    constexpr float kStep = 1.0F / kFrames;
+    const auto clouds = weather.all_clouds();
+    const bool ends =
+        std::ranges::any_of(clouds, [](const CloudLayer& cloud) { return cloud.area.has_value(); });
+    const float before = levelled_;
+    const float wanted = ends ? 0.0F : 1.0F;
+    levelled_ = at_once ? wanted : std::clamp(wanted, before - kStep, before + kStep);
+    return levelled_ != before;
 }
 
 void ShadowMap::update(CloudMaker& maker, const ShadowFrame& frame) {
@@ -206,7 +217,7 @@ void ShadowMap::update(CloudMaker& maker, const ShadowFrame& frame) {
     }
     follow(frame);
     const auto mean = static_cast<float>(frame.mean);
-    bool changed = mean != mean_;
+    bool changed = lead_level(frame.moment.scene.weather, first) || mean != mean_;
     mean_ = mean;
     if (first) {
         begin(maker, frame);
@@ -235,8 +246,7 @@ void ShadowMap::update(CloudMaker& maker, const ShadowFrame& frame) {
     }
     if (changed) {
         show(static_cast<double>(blend_) / kRows);
-        const auto clouds = frame.moment.scene.weather.all_clouds();
-        level(std::ranges::any_of(clouds, [](const CloudLayer& cloud) { return cloud.area.has_value(); }));
+        level();
         ++revision_;
         if (first) begun_ = revision_;
     }

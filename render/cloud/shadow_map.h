@@ -78,7 +78,8 @@ class ShadowMap {
     void make_rows(int count) noexcept;
     void blur(Grid& grid) const noexcept;
     void show(double share) noexcept;
-    void level(bool areas) noexcept;
+    void level() noexcept;
+    bool lead_level(const Weather& weather, bool at_once) noexcept;
 
     std::array<Grid, 3> grids_;
     std::size_t old_ = 0;
@@ -93,6 +94,7 @@ class ShadowMap {
     int rows_ = 0;   // made of the next one
     int blend_ = 0;  // rows' worth of frames since the last took over; kLevels * kCells: it has
     float mean_ = 1.0F;
+    float levelled_ = 1.0F;  // how far brought to the mean
     float contrast_ = 0.0F;
     std::uint64_t revision_ = 0;
     std::uint64_t begun_ = 0;

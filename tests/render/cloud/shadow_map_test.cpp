@@ -144,6 +144,36 @@ TEST(ShadowMap, AnEyeThatIsCarriedElsewhereHasItsShadowsAtOnce) {
     EXPECT_GT(map.begun(), before);
 }
 
+TEST(ShadowMap, AnAreaThatIsToldFarAwayChangesItWithoutAPop) {
+    Day day(0.5, 8.0);
+    ShadowMap map;
+    day.update(map, maker(), day.mean());
+    const double mean = day.mean();
+    const auto all = [&map] {
+        std::vector<float> cells(map.cells().begin(), map.cells().end());
+        return cells;
+    };
+    const std::vector<float> first = all();
+    std::vector<float> before = first;
+    CloudLayer elsewhere = day.layer();
+    elsewhere.seed = 9;
+    elsewhere.area = WeatherArea{.centre_m = {0.0, 400e3}, .half_size_m = {5e3, 5e3}};
+    day.scene.weather.clouds[day.scene.weather.cloud_count++] = elsewhere;
+    double worst = 0.0, changed = 0.0;
+    for (int frame = 0; frame < 3 * ShadowMap::kFrames; ++frame) {
+        day.update(map, maker(), mean);
+        const std::vector<float> now = all();
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            worst = std::max(worst, static_cast<double>(std::abs(now[i] - before[i])));
+            changed = std::max(changed, static_cast<double>(std::abs(now[i] - first[i])));
+        }
+        before = now;
+    }
+    std::printf("an area far away: cells change by %.2f, in a frame by %.4f\n", changed, worst);
+    EXPECT_GT(changed, 0.1);
+    EXPECT_LT(worst, 0.03);
+}
+
 TEST(ShadowMap, GrowingCloudsChangeItWithoutAPop) {
     Day day(0.0, 50.0);
     ShadowMap map;
