@@ -186,6 +186,30 @@ TEST(FrameAllocation, CloudsAreFollowedAndTonedWithoutAny) {
     EXPECT_EQ(skyig::tests::allocation_count() - before, 0U);
 }
 
+// Things of another renderer ask every tile that is seen, however many there come to be.
+TEST(FrameAllocation, AViewThatGrowsWiderAsksForNoRoomForThings) {
+    const FakeSheet sheet{.casts_shadow = true};
+    Scene scene = make_scene(48.0, 185.0, -10.0, 40.0, 1500.0);
+    add_view(scene, symmetric_frustum(5.0, 640, 512), view_from_enu(150.0, -20.0, 0.0));
+    add_layer(scene, sheet);
+    Quality quality;
+    quality.cloud_map_size = 512;
+    SkyFrame frame({}, quality);
+    frame.draw_clouds(fake_clouds(sheet));
+    frame.prepare(scene, 1.8e-3);
+    frame.serve_things();
+    frame.prepare(scene, 1.8e-3);
+    const std::size_t narrow = frame.clouds().map().seen_tiles().size();
+    const auto before = skyig::tests::allocation_count();
+    for (int i = 1; i <= 20; ++i) {
+        scene.time_s += 1.0 / 30.0;
+        scene.views[0].frustum = symmetric_frustum(5.0 + 2.0 * i, 640, 512);
+        frame.prepare(scene, 1.8e-3);
+    }
+    EXPECT_GT(frame.clouds().map().seen_tiles().size(), 2 * narrow);
+    EXPECT_EQ(skyig::tests::allocation_count() - before, 0U);
+}
+
 // Without GL: what an evening brings in, and another Milky Way by night.
 TEST(FrameAllocation, NothingIsAllocatedAtNightfallNorForAnotherMilkyWay) {
     Scene scene = make_scene(5.0, 0.0, -40.0, 180.0, 500.0);
