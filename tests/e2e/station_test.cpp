@@ -58,7 +58,7 @@ class Station : public ::testing::Test {
                         "\"weather\"]\n[status]\nlisten = \"127.0.0.1:0\"\n[start]\nutc = "
                         "\"2026-06-21T12:00:00Z\"\nheight_m = 500\n[weather]\nclouds = \"layer\"\npreset = "
                         "\"cavok\"\ntransition_s "
-                        "= 0.3\n{}",
+                        "= 0.3\n[eye]\nadapt_up_s = 0.2\nadapt_down_s = 0.2\n{}",
                         cigi, channel_toml("only", 96, 64, 0)));
         daemon_.emplace(std::vector<std::string>{SKYIGD_PROGRAM, "--config", config, "--headless"});
         ASSERT_TRUE(daemon_->wait_for_err("/status")) << daemon_->err_so_far();
@@ -168,7 +168,7 @@ TEST_F(Station, WhatIsSetOnThePageIsToldAndSeen) {
     ASSERT_TRUE(shows([](const Json& world) {
         return world["weather"]["layers"][0]["base_m"].get<double>() > 1200.0;
     })) << world();
-    EXPECT_TRUE(differs("cloud_base_dragged", low, 4.0));
+    EXPECT_TRUE(differs("cloud_base_dragged", low, 2.0));
 
     (void)browser_->evaluate(
         "(() => { const box = document.querySelector('#metar');"

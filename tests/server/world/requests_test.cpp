@@ -152,7 +152,7 @@ TEST(Events, AreToldOnlyWhenEnabled) {
     EXPECT_TRUE(events.empty());
     EXPECT_TRUE(events.enable(2, true));
     EXPECT_FALSE(events.enable(0, true));
-    EXPECT_FALSE(events.enable(4, true));
+    EXPECT_FALSE(events.enable(5, true));
     EXPECT_TRUE(events.raise(Event::kSourceLost, 1, 2));
     ASSERT_FALSE(events.empty());
     EXPECT_EQ(events.front().event_id, 2);
