@@ -31,6 +31,8 @@ class ChannelGuard {
         wait_ = pause_;
         pause_ = std::min(2 * pause_ + 1, kLongestPause);
     }
+    /// What it failed on is gone: tried at once.
+    void begin_anew() noexcept { wait_ = pause_ = 0; }
     [[nodiscard]] const status::ChannelHealth& health() const noexcept { return health_; }
 
   private:

@@ -169,12 +169,13 @@ void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::F
         const std::int64_t took_ns = stopwatch.lap_ns();
         times_.channel(channel).add(took_ns);
         times.channels_ns += took_ns;
-        if (!live) continue;
+        // What is crossed out shows no message.
+        if (!live || parts_.painter.health(channel).failed) continue;
         last_utc_ns = parts_.clock.utc_ns();
-        if (channel == 0) first_utc_ns = last_utc_ns;
+        if (first_utc_ns == 0) first_utc_ns = last_utc_ns;
         delays_.finished(channel, last_utc_ns, inbox_.frame_arrivals());
     }
-    if (live) tell_host_of_pictures(first_utc_ns, last_utc_ns);
+    if (last_utc_ns != 0) tell_host_of_pictures(first_utc_ns, last_utc_ns);
     tell_channels();
 }
 

@@ -21,6 +21,8 @@ void GlPainter::sit_down() {
     seat_ = std::make_unique<GlSeat>(settings_);
     description_ = seat_->description();
     draws_clouds_ = false;
+    for (ChannelGuard& guard : guards_)
+        guard.begin_anew();
     if (eyes_) seat_->renderer().adapt_as(*eyes_);
 }
 
@@ -67,6 +69,8 @@ void GlPainter::prepare_seat(const render::Scene& scene) {
 }
 
 void GlPainter::draw(std::size_t channel) {
+    if (!seat_ && !guards_[channel].health().failed)
+        guards_[channel].failed("the graphics device is not back after a reset");
     if (!seat_ || !guards_[channel].try_now()) return;
     try {
         try_to_draw(channel);

@@ -25,7 +25,7 @@ class GlPainter final : public Painter {
     void thin(render::Thinned thinned) override { thinned_ = thinned; }
     [[nodiscard]] render::Thinned thinnable() const override { return thinnable_; }
     /// After a reset it takes as long as a start; while the device cannot be had it is asked for every
-    /// kRetryFrames, and the channels keep what they show.
+    /// kRetryFrames; the channels keep what they show and have failed.
     void prepare(const render::Scene& scene) override;
     void draw(std::size_t channel) override;
     bool present() override;

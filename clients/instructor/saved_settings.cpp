@@ -33,8 +33,8 @@ protocol::Result<SavedSettings, std::string> SavedSettings::open(const std::stri
     text << in.rdbuf();
     if (!in) return protocol::Error{system_fault(path)};
     const Json json = Json::parse(text.str(), nullptr, false);
-    if (!json.is_object() || json.value("version", 0) != kVersion || !json.contains("presets") ||
-        !json["presets"].is_object())
+    if (!json.is_object() || !json.contains("version") || json["version"] != kVersion ||
+        !json.contains("presets") || !json["presets"].is_object())
         return protocol::Error{
             fmt::format("{}: holds no presets of this program (version {})", path, kVersion)};
     for (const auto& [name, value] : json["presets"].items()) {

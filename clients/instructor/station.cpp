@@ -217,7 +217,18 @@ void Station::daemon_says(Json status, double time_s) {
     status_ = std::move(status);
     silence_.clear();
     heard_s_ = time_s;
-    adopt(time_s);
+    try {
+        adopt(time_s);
+        // Whatever is asked of it later is asked here first.
+        (void)weather_shown();
+        (void)clock_shown(time_s);
+        (void)channel_names();
+        const Json place = world().value("ownship", Json::object());
+        (void)(place.value("latitude_deg", 0.0) + place.value("longitude_deg", 0.0));
+    } catch (const Json::exception&) {
+        status_ = Json::object();
+        daemon_is_silent("what answers there is not skyigd");
+    }
 }
 
 void Station::daemon_is_silent(std::string reason) {

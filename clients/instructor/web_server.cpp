@@ -104,7 +104,10 @@ void WebServer::step(std::chrono::milliseconds most) {
 }
 
 void WebServer::take_new() {
-    while (transport::FileDescriptor socket = transport::accept_tcp(listener_)) {
+    // Who connects without end must not keep the others waiting.
+    for (int i = 0; i < kBacklog; ++i) {
+        transport::FileDescriptor socket = transport::accept_tcp(listener_);
+        if (!socket) return;
         ++counts_.connections;
         if (clients_.size() >= options_.connections) {
             ++counts_.refused_full;
@@ -234,6 +237,7 @@ void WebServer::read_frames(Client& client, std::string_view bytes) {
                 take_message(client, client.reader.message());
                 break;
             case Event::kPing:
+                if (!may_speak(client)) break;
                 push(client,
                      std::make_shared<const std::string>(make_frame(Opcode::kPong, client.reader.message())));
                 break;
@@ -256,7 +260,8 @@ void WebServer::read_frames(Client& client, std::string_view bytes) {
     }
 }
 
-void WebServer::take_message(Client& client, std::string_view text) {
+/// One more message or ping; one too many is counted, and by and by ends the connection.
+bool WebServer::may_speak(Client& client) {
     const std::int64_t now_ns = clock_.monotonic_ns();
     const double earned = static_cast<double>(now_ns - client.allowed_ns) * 1e-9 * options_.messages_per_s;
     client.allowed_ns = now_ns;
@@ -264,12 +269,17 @@ void WebServer::take_message(Client& client, std::string_view text) {
     client.thrown_away = std::max(client.thrown_away - earned, 0.0);
     if (client.allowance < 1.0) {
         ++counts_.rate_limited;
-        if (++client.thrown_away < kRatesThrownAway * options_.messages_per_s) return;
+        if (++client.thrown_away < kRatesThrownAway * options_.messages_per_s) return false;
         ++counts_.ended_for_rate;
         end(client, make_close(CloseCode::kPolicy));
-        return;
+        return false;
     }
     client.allowance -= 1.0;
+    return true;
+}
+
+void WebServer::take_message(Client& client, std::string_view text) {
+    if (!may_speak(client)) return;
     ++counts_.messages;
     const std::string reply = handlers_.message(text);
     if (!reply.empty()) push(client, std::make_shared<const std::string>(make_frame(Opcode::kText, reply)));

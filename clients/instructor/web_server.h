@@ -30,8 +30,8 @@ struct WebOptions {
     std::size_t connections = 32;
     /// Longer messages end the connection.
     std::size_t most_message_bytes = std::size_t{64} << 10U;
-    /// Messages a second of one page; twice as many may come at once. More are thrown away, and whoever has
-    /// ten times as many thrown away is ended.
+    /// Messages and pings a second of one page; twice as many may come at once. More are thrown away, and
+    /// whoever has ten times as many thrown away is ended.
     double messages_per_s = 50.0;
     /// For a page over HTTP, from the connection on; and how long what was sent over a WebSocket may wait for
     /// a client that does not read.
@@ -131,6 +131,7 @@ class WebServer {
     void answer(Client& client, const server::status::HttpAnswer& answer, bool with_body);
     void refuse(Client& client, Refusal refusal);
     void read_frames(Client& client, std::string_view bytes);
+    [[nodiscard]] bool may_speak(Client& client);
     void take_message(Client& client, std::string_view text);
     void end(Client& client, std::string frame);
     void push(Client& client, Frame frame);

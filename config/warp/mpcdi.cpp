@@ -20,6 +20,8 @@ namespace skyig::config::warp {
 namespace {
 
 constexpr const char* kXml = "mpcdi.xml";
+/// As a tree it takes twenty times as much.
+constexpr std::size_t kMostXmlBytes = std::size_t{4} << 20U;
 
 /// What is wrong, on its way to read_mpcdi() alone.
 struct Refused : std::runtime_error {
@@ -96,6 +98,9 @@ class Reader {
 
     void read_document() {
         const Bytes text = taken(archive_.read(kXml));
+        if (text.size() > kMostXmlBytes)
+            refuse(fmt::format("entry {}: has {} bytes, more than {} MiB", kXml, text.size(),
+                               kMostXmlBytes >> 20U));
         const pugi::xml_parse_result parsed = document_.load_buffer(text.data(), text.size());
         if (!parsed)
             refuse(fmt::format("entry {}: {} at byte {}", kXml, parsed.description(), parsed.offset));

@@ -27,8 +27,10 @@ GLenum internal_format(PixelFormat format) {
 
 }  // namespace
 
-Framebuffer::Framebuffer(int width_px, int height_px, PixelFormat format)
-    : width_px_(width_px), height_px_(height_px) {
+// After the first constructor the object lives: what is made here is deleted where the driver refuses it.
+Framebuffer::Framebuffer(int width_px, int height_px, PixelFormat format) : Framebuffer() {
+    width_px_ = width_px;
+    height_px_ = height_px;
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (width_px < 1 || height_px < 1 || width_px > limit || height_px > limit) {

@@ -41,6 +41,7 @@ class Framebuffer {
     [[nodiscard]] int height_px() const noexcept { return height_px_; }
 
   private:
+    Framebuffer() noexcept = default;
     void turn_over(std::span<std::byte> rows);
 
     unsigned framebuffer_ = 0;

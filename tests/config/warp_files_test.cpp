@@ -237,6 +237,13 @@ TEST_F(WarpFiles, BombsAndPathsThatLeadOutAreRefused) {
     auto entries = sample();
     entries.emplace_back("bomb.pfm", std::string(std::size_t{4} << 20U, '\0'));
     EXPECT_THAT(mpcdi_refusal(entries), HasSubstr("entry bomb.pfm: unpacks"));
+    std::string xml = sample()[0].second;
+    // Unlike enough that it is no bomb by its ratio, like enough to be packed fast.
+    for (int i = 0; xml.size() < 5'000'000; ++i)
+        xml += fmt::format("<!-- {} {:500} -->\n", i, "");
+    auto large = sample();
+    large[0].second = xml;
+    EXPECT_THAT(mpcdi_refusal(large), HasSubstr("entry mpcdi.xml: has 500"));
     for (const std::string name :
          {"../outside.pfm", "/etc/outside.pfm", "a/../../outside.pfm", "a\\outside.pfm"}) {
         entries.back() = {name, "x"};

@@ -149,6 +149,20 @@ TEST(GlPainter, AChannelThatFailsIsCrossedOutAndTheOthersGoOn) {
     EXPECT_EQ(painter.gl_errors(), 3U);
 }
 
+TEST(GlPainter, AChannelThatFailedIsTriedAtOnceAfterAResetOfTheDevice) {
+    GlPainter painter(one_channel());
+    const Scene scene = looking(20.0, 0.0);
+    const auto good = picture(painter, scene);
+    painter.inject_errors(0, 4);
+    // Tries 1, 2, 4 and 8 fail; the next would be that of frame 16.
+    for (int frame = 1; frame <= 8; ++frame)
+        picture(painter, scene);
+    ASSERT_EQ(painter.health(0).failures, 4U);
+    painter.inject_reset();
+    EXPECT_LE(largest_step(picture(painter, scene), good), 1);
+    EXPECT_FALSE(painter.health(0).failed);
+}
+
 TEST(GlPainter, AChannelWithoutAPictureIsRedAndTheOthersAreDrawn) {
     GlSeatSettings settings = one_channel();
     const Scene scene = two_views();

@@ -260,6 +260,23 @@ TEST_F(StationTest, RefusesWithAReason) {
     EXPECT_FALSE(daemon_.hear(station_.due_message(0.1))) << "nothing was asked for";
 }
 
+TEST_F(StationTest, WhatIsNoDaemonOfOursIsSilent) {
+    const Json good = daemon_.status("2026-06-21T12:00:00.000Z");
+    const auto silence = [&](const std::string& member, const Json& value) {
+        Json status = good;
+        status[Json::json_pointer(member)] = value;
+        station_.daemon_says(status, time_s_);
+        return Json::parse(station_.status_text(time_s_, {})).at("silence").get<std::string>();
+    };
+    EXPECT_EQ(silence("/world/utc", good["world"]["utc"]), "");
+    EXPECT_EQ(silence("/world/utc", 5), "what answers there is not skyigd");
+    EXPECT_EQ(silence("/world/air", "clear"), "what answers there is not skyigd");
+    EXPECT_EQ(silence("/world/weather/layers", {1, 2}), "what answers there is not skyigd");
+    EXPECT_EQ(silence("/world/ownship", {{"latitude_deg", "north"}}), "what answers there is not skyigd");
+    EXPECT_EQ(silence("/channels", {{{"name", 1}}}), "what answers there is not skyigd");
+    EXPECT_EQ(silence("/world/utc", good["world"]["utc"]), "");
+}
+
 TEST(SavedSettings, OutliveTheProgramAndRefuseWhatIsNotTheirs) {
     const skyig::tests::ScratchDirectory scratch;
     const std::string path = scratch.file("own/presets.json");
@@ -277,6 +294,9 @@ TEST(SavedSettings, OutliveTheProgramAndRefuseWhatIsNotTheirs) {
     const auto other = SavedSettings::open(scratch.write("other.json", "{\"version\": 2}"));
     EXPECT_FALSE(other);
     EXPECT_NE(other.error().find("version 1"), std::string::npos);
+    const auto strange = SavedSettings::open(scratch.write("strange.json", "{\"version\": \"1\"}"));
+    EXPECT_FALSE(strange);
+    EXPECT_NE(strange.error().find("strange.json: holds no presets"), std::string::npos);
 }
 
 TEST(Almanac, TellsTheDayOfASite) {

@@ -183,6 +183,21 @@ TEST_F(Port, ThrowsAwayAFloodAndThenEndsIt) {
     EXPECT_EQ(counts.ended_for_rate, 1U);
 }
 
+TEST_F(Port, AFloodOfPingsIsOneTooAndItsAnswersAreNotKept) {
+    Client client(server_->local());
+    client.send(upgrade("http://" + name()));
+    (void)client.read_until("welcome");
+    std::string pings;
+    for (int i = 0; i < 1000; ++i)
+        pings += std::string("\x89\x80\0\0\0\0", 6);
+    client.send(pings);
+    EXPECT_TRUE(client.ends());
+    const WebCounts counts = stop();
+    EXPECT_GE(counts.rate_limited, 500U);
+    EXPECT_EQ(counts.ended_for_rate, 1U);
+    EXPECT_EQ(counts.messages, 0U);
+}
+
 TEST_F(Port, DropsWhoNeverReadsAndServesTheOthers) {
     Client deaf(server_->local());
     deaf.send(upgrade("http://" + name()));

@@ -183,6 +183,15 @@ TEST_F(DelayLoop, ARecordingHasNoDelays) {
     EXPECT_EQ(loop_->report().delays[0].count, 0U);
 }
 
+TEST_F(DelayLoop, APictureThatIsCrossedOutShowsNoMessage) {
+    painter_.channel_health.failed = true;
+    loop();
+    link_.arrival_ns = clock_.utc_ns() - 2 * kMs;
+    link_.put(kHost, Message(cigi::Version::k33, cigi::IgMode::kOperate, 1).at(45.0).bytes());
+    loop_->run_frame();
+    EXPECT_EQ(loop_->report().delays[0].count, 0U);
+}
+
 TEST_F(DelayLoop, AHostThatAsksIsToldWhenItsFrameWasFinished) {
     loop();
     std::array<std::byte, 256> buffer{};
