@@ -43,16 +43,19 @@ void GlPainter::draw_clouds() {
 
 void GlPainter::prepare(const render::Scene& scene) {
     if (seat_ && seat_->resets().lost()) leave_lost_device();
-    if (seat_) {
+    if (!has_prepared_) {
         prepare_seat(scene);
-    } else if (frames_to_retry_-- <= 0) {
+        has_prepared_ = true;
+        return;
+    }
+    if (!seat_ && frames_to_retry_-- > 0) return;
+    try {
+        if (!seat_) sit_down();
+        prepare_seat(scene);
+    } catch (const std::exception&) {
+        // No memory, or the device is not back yet.
+        if (seat_) leave_lost_device();
         frames_to_retry_ = kRetryFrames;
-        try {
-            sit_down();
-            prepare_seat(scene);
-        } catch (const std::exception&) {
-            seat_.reset();  // The device is not back yet.
-        }
     }
 }
 

@@ -24,7 +24,8 @@ class GlPainter final : public Painter {
     void draw_clouds();
     void thin(render::Thinned thinned) override { thinned_ = thinned; }
     [[nodiscard]] render::Thinned thinnable() const override { return thinnable_; }
-    /// After a reset it takes as long as a start; while the device cannot be had it is asked for every
+    /// The first call may throw; later it does not: what cannot be had of the device is as its loss. After a
+    /// reset it takes as long as a start; while the device cannot be had it is asked for every
     /// kRetryFrames; the channels keep what they show and have failed.
     void prepare(const render::Scene& scene) override;
     void draw(std::size_t channel) override;
@@ -73,6 +74,7 @@ class GlPainter final : public Painter {
     std::vector<int> errors_to_make_;
     bool clouds_wanted_ = false;
     bool draws_clouds_ = false;
+    bool has_prepared_ = false;
     std::uint64_t errors_ = 0;
     std::uint64_t errors_before_ = 0;
     std::uint64_t resets_ = 0;

@@ -37,6 +37,9 @@ void take_bytes(png_structp png, png_bytep out, std::size_t size) {
     source.left -= size;
 }
 
+/// Of what unpacks from a small file to gigabytes; four times what the largest projectors have.
+constexpr std::size_t kMostPixels = 8192U * 8192U;
+
 struct Raw {
     png_uint_32 width = 0;
     png_uint_32 height = 0;
@@ -52,6 +55,7 @@ bool read_head(Source& source, png_structp png, png_infop info, Raw& raw) {
     png_read_info(png, info);
     raw.width = png_get_image_width(png, info);
     raw.height = png_get_image_height(png, info);
+    if (std::size_t{raw.width} * raw.height > kMostPixels) png_error(png, "it has more than 67108864 pixels");
     raw.has_alpha = (png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) != 0 ||
                     png_get_valid(png, info, PNG_INFO_tRNS) != 0;
     png_set_expand_16(png);

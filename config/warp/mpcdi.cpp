@@ -80,13 +80,18 @@ class Reader {
 
     MpcdiRegion read() {
         MpcdiRegion out;
-        out.width_px = static_cast<int>(attribute(region_, "xResolution", 1.0, kMaxChannelSize_px));
-        out.height_px = static_cast<int>(attribute(region_, "yResolution", 1.0, kMaxChannelSize_px));
+        out.width_px = pixels("xResolution");
+        out.height_px = pixels("yResolution");
         if (is_3d_)
             out.view = view();
         else
             out.part = {attribute(region_, "x", 0.0, 1.0), attribute(region_, "y", 0.0, 1.0),
                         attribute(region_, "xsize", 1e-3, 1.0), attribute(region_, "ysize", 1e-3, 1.0)};
+        // Written in decimals, thirds add up to a little more.
+        if (!is_3d_ && (out.part[0] + out.part[2] > 1.0 + 1e-6 || out.part[1] + out.part[3] > 1.0 + 1e-6))
+            refuse(fmt::format(
+                "entry {}: <region> goes beyond its picture: x + xsize and y + ysize must be at most 1",
+                kXml));
         read_files(out);
         return out;
     }
@@ -94,6 +99,14 @@ class Reader {
   private:
     static double attribute(const pugi::xml_node& node, const char* name, double least, double most) {
         return number_of(attribute_of(node, name), fmt::format("{} of <{}>", name, node.name()), least, most);
+    }
+
+    [[nodiscard]] int pixels(const char* name) const {
+        const double count = attribute(region_, name, 1.0, kMaxChannelSize_px);
+        if (count != std::floor(count))
+            refuse(
+                fmt::format("entry {}: {} of <region> is {}; it must be a whole number", kXml, name, count));
+        return static_cast<int>(count);
     }
 
     void read_document() {

@@ -286,7 +286,9 @@ TEST(Bus, FramesCostNoMemoryAndTheEndIsPrompt) {
     const std::uint64_t before = allocation_count();
     const auto start = Clock::now();
     for (std::uint32_t i = 0; i < kFrames; ++i) {
-        bus.send_number(i);
+        // A loaded machine's bus has no room now and then.
+        while (!bus.send_number(i))
+            std::this_thread::yield();
         receiver->drain(take);
     }
     while (next < kFrames && receiver->wait(milliseconds(2000)))

@@ -31,6 +31,11 @@ name = "centre"
 file = "site.mpcdi"
 )";
 
+/// Its last one.
+std::string replaced(std::string text, std::string_view what, std::string_view by) {
+    return text.replace(text.rfind(what), what.size(), by);
+}
+
 class WarpFiles : public ::testing::Test {
   protected:
     Channel good(std::string_view text) {
@@ -223,6 +228,10 @@ TEST_F(WarpFiles, MalformedArchivesAreRefusedWithTheEntry) {
     EXPECT_THAT(mpcdi_refusal(with(0, mpcdi_xml("3d", ""))), HasSubstr("no <frustum>"));
     EXPECT_THAT(mpcdi_refusal(with(0, mpcdi_xml("3d", kMpcdiFrustum, 0))),
                 HasSubstr("xResolution of <region> is \"0\""));
+    EXPECT_THAT(mpcdi_refusal(with(0, replaced(mpcdi_xml("3d", kMpcdiFrustum), "\"48\"", "\"48.7\""))),
+                HasSubstr("yResolution of <region> is 48.7; it must be a whole number"));
+    EXPECT_THAT(mpcdi_refusal(with(0, replaced(mpcdi_xml("2d", ""), "\"0.5\"", "\"0.9\""))),
+                HasSubstr("goes beyond its picture"));
     std::string wide(kMpcdiFrustum);
     wide.replace(wide.find("<rightAngle>30"), 14, "<rightAngle>nan");
     EXPECT_THAT(mpcdi_refusal(with(0, mpcdi_xml("3d", wide))), HasSubstr("rightAngle is \"nan\""));

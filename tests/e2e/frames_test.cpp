@@ -37,7 +37,7 @@ TEST(Frames, TheDaemonStampsEveryFlipOfAHost) {
                     scene.at("scene").get<std::string>().c_str(), scene.at("flips").dump().c_str(),
                     scene.at("untold").dump().c_str(), median_frames, scene.at("p99_frames").get<double>());
         EXPECT_EQ(scene.at("flips"), 8);
-        EXPECT_LT(scene.at("untold").get<int>(), 8);
+        EXPECT_LE(scene.at("untold").get<int>(), 4);
         EXPECT_GT(median_frames, 0.05);
         // Clouds at 60 Hz are more than some test machines can.
         if (scene.at("scene") != "cloud") {
