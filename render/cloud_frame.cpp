@@ -172,14 +172,20 @@ double CloudFrame::shaded_from_m(int tile) const noexcept {
 bool CloudFrame::serves(int tile, std::uint64_t tone_revision) const noexcept {
     const Made& made = made_[static_cast<std::size_t>(tile)];
     if (!made.clouded || made.tone != tone_revision || made.map == 0) return false;
-    const double shaded_m = shaded_from_m(tile);
-    if (shaded_m > 0.0 ? !shadow_->serves(made.shadow, shaded_m, tile) : made.shadow.shaded) return false;
-    if (!map_.may_show(tile)) return !made.with_clouds;
-    if (made.map != map_.revision() || !still_serves(near_made_[static_cast<std::size_t>(tile)], near_))
-        return false;
     constexpr float kStep = 3.0F * 0.5F / 255.0F;
     // Texels are 1.41 / size wide where they are narrowest; a way aslant goes over rows and columns.
     const float steps_a_rad = made.step * static_cast<float>(map_.geometry().size());
+    const double shaded_m = shaded_from_m(tile);
+    if (shaded_m > 0.0) {
+        // A third of a texel at least: the step may be a cloud's edge, shadows are softer.
+        const float still_rad = steps_ * std::max(kStep / std::max(steps_a_rad, 1e-9F), 5e-4F);
+        if (!shadow_->serves(made.shadow, shaded_m, tile, static_cast<double>(still_rad))) return false;
+    } else if (made.shadow.shaded) {
+        return false;
+    }
+    if (!map_.may_show(tile)) return !made.with_clouds;
+    if (made.map != map_.revision() || !still_serves(near_made_[static_cast<std::size_t>(tile)], near_))
+        return false;
     const glm::vec3 axis{map_.cone(tile).axis};
     const auto parts = map_.parts();
     for (std::size_t k = 0; k < parts.size(); ++k) {

@@ -143,13 +143,12 @@ glm::dvec3 GroundShadow::on_thing(const glm::dvec3& at_m) const noexcept {
     return glm::max(1.0 + beam_over_mean_ * change, 0.0);
 }
 
-bool GroundShadow::serves(const Made& made, double distance_m, int part) const noexcept {
+bool GroundShadow::serves(const Made& made, double distance_m, int part, double still_rad) const noexcept {
     constexpr std::uint64_t kEvery = 4;
-    constexpr double kStep_rad = 5e-4;
     if (!made.shaded || made.revision < map_.begun()) return false;
     const double moved_m =
         glm::distance(made.origin_m, map_.origin_m()) + std::abs(made.height_m - height_m_);
-    if (moved_m > kStep_rad * distance_m) return false;
+    if (moved_m > still_rad * distance_m) return false;
     return made.revision == map_.revision() || (frames_ + static_cast<std::uint64_t>(part)) % kEvery != 0;
 }
 

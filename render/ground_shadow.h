@@ -69,8 +69,8 @@ class GroundShadow {
         return {true, map_.revision(), map_.origin_m(), height_m_};
     }
     /// Whether it still shows what it should from that far. Slow changes are shown every few frames, not in
-    /// all parts at once. \param part  its number
-    [[nodiscard]] bool serves(const Made& made, double distance_m, int part) const noexcept;
+    /// all parts at once. \param part  its number \param still_rad  what turns by less shows no motion
+    [[nodiscard]] bool serves(const Made& made, double distance_m, int part, double still_rad) const noexcept;
 
   private:
     cloud::ShadowMap map_;

@@ -17,6 +17,8 @@ constexpr std::size_t kSquare = std::size_t{kCells} * kCells;
 constexpr double kAway_m = 0.0625 * kCells * ShadowMap::kCell_m[0];
 
 constexpr double kSourceStep = 1e-4;
+/// Of the beam: a mean that moves by less shows nowhere.
+constexpr float kMeanStep = 5e-4F;
 
 bool same_weather(const Weather& a, const Weather& b) noexcept {
     return std::ranges::equal(a.all_clouds(), b.all_clouds());
@@ -217,8 +219,9 @@ void ShadowMap::update(CloudMaker& maker, const ShadowFrame& frame) {
     }
     follow(frame);
     const auto mean = static_cast<float>(frame.mean);
-    bool changed = lead_level(frame.moment.scene.weather, first) || mean != mean_;
-    mean_ = mean;
+    bool changed =
+        lead_level(frame.moment.scene.weather, first) || first || std::abs(mean - mean_) > kMeanStep;
+    if (changed) mean_ = mean;
     if (first) {
         begin(maker, frame);
         make_rows(kRows);
