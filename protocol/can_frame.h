@@ -14,6 +14,14 @@ inline constexpr std::uint32_t kMaxExtendedId = 0x1FFF'FFFFU;
 inline constexpr std::size_t kClassicBytes = 8;
 inline constexpr std::size_t kFdBytes = 64;
 
+/// The flags of a CAN FD frame from what a source tells: of those that are known the two that the bus carries, and
+/// the format's own, which old kernels, old writers and `##` of candump logs leave out.
+constexpr std::uint8_t fd_flags_from(unsigned told) noexcept {
+    constexpr unsigned kOfTheBus = 0x03;
+    constexpr unsigned kFormat = 0x04;
+    return static_cast<std::uint8_t>((told & kOfTheBus) | kFormat);
+}
+
 /// Exactly one of the flags error, remote and fd may stand; none of them: a classic data frame.
 struct CanFrame {
     /// When it was received: nanoseconds since 1970-01-01 UTC, or since the recording's own start.
@@ -28,7 +36,7 @@ struct CanFrame {
     bool remote = false;
     bool error = false;
     bool fd = false;
-    /// CAN FD only: bit 0 bit-rate switch, bit 1 error state indicator, bit 2 FD format.
+    /// CAN FD only, see fd_flags_from(): bit 0 bit-rate switch, bit 1 error state indicator, bit 2 FD format.
     std::uint8_t fd_flags = 0;
     std::array<std::uint8_t, kFdBytes> data{};
 

@@ -34,7 +34,6 @@ using namespace server::ephemeris;
 
 constexpr double kRadPerDegree = std::numbers::pi / 180.0;
 constexpr double kArcsecPerRad = 3600.0 / kRadPerDegree;
-constexpr double kMjdOrigin_jd = 2400000.5;
 constexpr double kSecondsPerDay = 86400.0;
 
 constexpr std::array<Model, 3> kModels{Model::kAlmanac, Model::kErfa, Model::kSeries};

@@ -65,6 +65,7 @@ Step CandumpReader::take_line(std::string_view line, bool ended, RawPacket& pack
         return ended ? Step::kDamaged : Step::kTruncated;
     }
     frame_ = parsed->frame;
+    if (frame_.fd) frame_.fd_flags = fd_flags_from(frame_.fd_flags);
     packet.time_ns = frame_.received_ns;
     packet.stamped = true;
     packet.interface = interface_of(parsed->interface);

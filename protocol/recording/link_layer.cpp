@@ -31,7 +31,6 @@ constexpr std::uint32_t kCanRemote = 0x4000'0000U;
 constexpr std::uint32_t kCanError = 0x2000'0000U;
 constexpr std::uint8_t kCanXl = 0x80;  // in the length byte
 constexpr std::uint8_t kCanFdFormat = 0x04;
-constexpr std::uint8_t kCanFdFlags = 0x07;
 
 std::uint16_t word_at(Bytes bytes, std::size_t offset) noexcept {
     return load<std::uint16_t>(bytes.data() + offset, kNetwork);
@@ -95,7 +94,7 @@ Contents take_can(Bytes bytes, bool whole, ByteOrder order, CapturedPacket& pack
     // Writers older than the format's flag tell CAN FD by the size of its frame alone.
     frame.fd = !frame.error && ((flags & kCanFdFormat) != 0 || length > kClassicBytes ||
                                 bytes.size() == kCanHeaderBytes + kFdBytes);
-    if (frame.fd) frame.fd_flags = static_cast<std::uint8_t>((flags & kCanFdFlags) | kCanFdFormat);
+    if (frame.fd) frame.fd_flags = fd_flags_from(flags);
     const bool wide = frame.extended || frame.error;
     if ((frame.fd && frame.remote) || (!wide && frame.id > kMaxStandardId) ||
         length > (frame.fd ? kFdBytes : kClassicBytes))

@@ -150,7 +150,6 @@ std::size_t put_can(std::byte* at, const CanFrame& frame) noexcept {
     constexpr std::uint32_t kExtended = 0x8000'0000U;
     constexpr std::uint32_t kRemote = 0x4000'0000U;
     constexpr std::uint32_t kError = 0x2000'0000U;
-    constexpr unsigned kFdFormat = 0x04;
     std::uint32_t word = frame.id & kMaxExtendedId;
     if (frame.extended) word |= kExtended;
     if (frame.remote) word |= kRemote;
@@ -161,7 +160,7 @@ std::size_t put_can(std::byte* at, const CanFrame& frame) noexcept {
     std::memset(at, 0, kCanHeaderBytes);
     store(at, kNetwork, word);
     at[4] = static_cast<std::byte>(length);
-    if (frame.fd) at[5] = static_cast<std::byte>((frame.fd_flags & 0x03U) | kFdFormat);
+    if (frame.fd) at[5] = std::byte{fd_flags_from(frame.fd_flags)};
     std::memcpy(at + kCanHeaderBytes, frame.data.data(), data);
     return kCanHeaderBytes + data;
 }

@@ -27,7 +27,6 @@ constexpr std::size_t kBatch = 64;
 /// A second of a full bus at the 770 bytes that a queued frame costs the kernel; it doubles what it is told.
 constexpr int kKernelBufferBytes = 4 << 20;
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-constexpr std::uint8_t kFdFlags = 0x07;
 
 /// Who sees a count sees the state that was set before it.
 void add(std::atomic<std::uint64_t>& counter, std::uint64_t amount = 1) noexcept {
@@ -72,7 +71,7 @@ CanFrame to_frame(const canfd_frame& raw, bool fd, std::uint8_t bus, std::int64_
     frame.id = raw.can_id & (frame.error ? CAN_ERR_MASK : frame.extended ? CAN_EFF_MASK : CAN_SFF_MASK);
     const std::size_t most = fd ? kFdBytes : kClassicBytes;
     frame.length = static_cast<std::uint8_t>(std::min<std::size_t>(raw.len, most));
-    if (fd) frame.fd_flags = raw.flags & kFdFlags;
+    if (fd) frame.fd_flags = fd_flags_from(raw.flags);
     // What a remote frame carries means nothing.
     if (!frame.remote) std::memcpy(frame.data.data(), raw.data, frame.length);
     return frame;

@@ -320,6 +320,26 @@ Reading read_text(std::string_view text) {
     return read(std::as_bytes(std::span(text)));
 }
 
+// `##` says CAN FD and old kernels set no bit for it: a frame is the same in whatever recording it stands.
+TEST(CaptureReader, CanFdFramesOfACandumpLogAreThoseOfACapture) {
+    const std::string log = "(4.40) can0 70E##2FEEEEE\n";
+    auto from_log = CaptureReader::over(std::as_bytes(std::span(log)), "FILE");
+    ASSERT_TRUE(from_log);
+    const CapturedPacket* logged = from_log->next();
+    ASSERT_NE(logged, nullptr);
+    const auto bytes = can_bytes(0x70E, "\xFE\xEE\xEE", 2 | 4);
+    const auto capture = Builder(ByteOrder::kLittle)
+                             .section()
+                             .interface(link_type::kSocketCan, 9)
+                             .packet(0, logged->time_ns, bytes);
+    auto from_capture = CaptureReader::over(capture.bytes, "FILE");
+    ASSERT_TRUE(from_capture);
+    const CapturedPacket* captured = from_capture->next();
+    ASSERT_NE(captured, nullptr);
+    EXPECT_EQ(logged->can.fd_flags, 6);
+    EXPECT_TRUE(logged->can == captured->can);
+}
+
 TEST(CaptureReader, CandumpLogEndsWhereALineIsNoFrame) {
     const std::string good = "(1.000001) can0 123#00\n";
     const Reading torn = read_text(good + "(1.000002) can0 12");
