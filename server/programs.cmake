@@ -9,5 +9,5 @@ target_compile_definitions(server_loop PUBLIC SKYIG_VERSION="${PROJECT_VERSION}"
 if(SKYIG_GL)
   skyig_library(server_painter SOURCES gl_painter.cpp gl_seat.cpp window_layouts.cpp DEPS server_loop render render_desktop render_gl)
   add_executable(skyigd main.cpp daemon.cpp)
-  target_link_libraries(skyigd PRIVATE skyig_build server_painter render_output)
+  target_link_libraries(skyigd PRIVATE skyig_build server_painter render_output config_reference)
 endif()
