@@ -67,9 +67,7 @@ void read_texture(TableReader& table, const std::string& settings_file, WeatherT
         return fault.empty() ? map : warp::FileRead<warp::GreyMap>{std::nullopt, std::move(fault)};
     });
     if (image) texture.image = std::make_shared<warp::GreyMap>(std::move(*image));
-    std::size_t noise = static_cast<std::size_t>(texture.noise);
-    const Value* named = table.choice("noise", noise, kNoiseNames);
-    texture.noise = static_cast<CloudNoise>(noise);
+    const Value* named = table.choice("noise", texture.noise, kNoiseNames);
     if (named != nullptr && table.has("image"))
         table.error(*named, "noise", "stands beside image; give one of them");
     table.number("size_m", texture.size_m, {32.0, kTexturesRepeat_m, "m"});
@@ -81,16 +79,12 @@ void read_texture(TableReader& table, const std::string& settings_file, WeatherT
 }  // namespace
 
 void read_weather_sheet(TableReader& table, ErrorList& errors, WeatherSheet& sheet) {
-    std::size_t index = 0;
     table.require("type", "which clouds look so: \"cirrus\", \"stratus\" ...");
-    const Value* type = table.choice("type", index, kLayerTypeNames);
-    if (type != nullptr) {
-        sheet.type = static_cast<LayerType>(index);
-        if (!is_cloud(sheet.type)) table.error(*type, "type", "is no cloud; it must be one");
-    }
+    const Value* type = table.choice("type", sheet.type, std::span(kLayerTypeNames));
+    if (type != nullptr && !is_cloud(sheet.type)) table.error(*type, "type", "is no cloud; it must be one");
     table.number("density_offset", sheet.density_offset, {-4.0, 4.0, {}});
     table.number("self_shadow", sheet.self_shadow, {0.0, 10.0, {}});
-    table.numbers("colour", sheet.colour, {0.0, 1.0, {}}, "red, green and blue, linear");
+    table.numbers("colour", sheet.colour, {0.0, 1.0, {}}, "three numbers: [red, green, blue]");
     table.require("texture", "what it is made of: one to three [[weather.sheet.texture]] tables");
     read_tables(table, errors, "texture", "weather.sheet.texture", 0, kMaxWeatherTextures,
                 [&](TableReader& item) { read_texture(item, errors.file(), sheet.textures.emplace_back()); });

@@ -93,7 +93,7 @@ bool FrameLoop::run_frame() {
     if (!wanted) parts_.log.notice("a window was closed: the daemon ends");
     times.display_ns = stopwatch.lap_ns();
     if (parts_.wire.live()) delays_.shown(parts_.clock.utc_ns(), inbox_.frame_arrivals());
-    hand_out();
+    hand_out(scene);
     times.output_ns = stopwatch.lap_ns();
     if (on_processor_) times.processor_ns = parts_.clock.processor_ns() - processor_before_ns;
     last_end_ns_ = start_ns + times.duration_ns();
@@ -122,8 +122,8 @@ void FrameLoop::take_input(const FramePacer::Slot& slot, status::FrameParts& tim
     parts_.world.advance(static_cast<double>(slot.slots) * parts_.pace.period_s());
 }
 
-void FrameLoop::hand_out() {
-    if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images();
+void FrameLoop::hand_out(const render::Scene& scene) {
+    if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images(scene);
     if (parts_.hashes != nullptr) hash_images();
     if (parts_.preview == nullptr) return;
     parts_.preview->offer(
@@ -226,10 +226,11 @@ void FrameLoop::hash_images() {
     }
 }
 
-void FrameLoop::hand_out_images() {
+void FrameLoop::hand_out_images(const render::Scene& scene) {
     ImageWriter::Frame* images = parts_.images->try_acquire();
     if (images == nullptr) return;
     images->number = frame_number_;
+    if (parts_.images->takes_scenes()) images->scene = scene;
     for (std::size_t channel = 0; channel < images->channels.size(); ++channel)
         parts_.painter.read_back(channel, images->channels[channel]);
     parts_.images->submit(images);

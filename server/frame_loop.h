@@ -87,8 +87,8 @@ class FrameLoop {
     void answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns);
     void take_input(const FramePacer::Slot& slot, status::FrameParts& times, Stopwatch& stopwatch);
     void draw(const render::Scene& scene, Stopwatch& stopwatch, status::FrameParts& times);
-    void hand_out();
-    void hand_out_images();
+    void hand_out(const render::Scene& scene);
+    void hand_out_images(const render::Scene& scene);
     void tell_host_of_pictures(std::int64_t first_utc_ns, std::int64_t last_utc_ns);
     void close_frame(const FramePacer::Slot& slot, const status::FrameParts& times);
     void tell_thinning(Overload::Step step);

@@ -7,7 +7,8 @@ skyig_library(server_loop
 target_compile_definitions(server_loop PUBLIC SKYIG_VERSION="${PROJECT_VERSION}")
 
 if(SKYIG_GL)
-  skyig_library(server_painter SOURCES gl_painter.cpp gl_seat.cpp window_layouts.cpp DEPS server_loop render render_desktop render_gl)
+  skyig_library(server_painter SOURCES gl_painter.cpp gl_seat.cpp light_files.cpp window_layouts.cpp DEPS server_loop render render_desktop render_gl
+                PRIVATE_DEPS render_output)
   add_executable(skyigd main.cpp daemon.cpp)
-  target_link_libraries(skyigd PRIVATE skyig_build server_painter render_output)
+  target_link_libraries(skyigd PRIVATE skyig_build server_painter render_output config_reference)
 endif()

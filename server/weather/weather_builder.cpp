@@ -123,7 +123,10 @@ WeatherBuilder::WeatherBuilder(const WeatherSettings& settings)
 
 void WeatherBuilder::build(const world::World& world, render::Scene& scene) {
     render::Weather& weather = scene.weather;
-    if (world.resets() != resets_) drifts_.forget();
+    if (world.resets() != resets_) {
+        drifts_.forget();
+        ground_.clear();
+    }
     const bool at_once = jumped(world, scene.time_s);
     const EyePlane plane(scene.eye);
     if (settings_.keyframes) {
@@ -141,9 +144,9 @@ void WeatherBuilder::build(const world::World& world, render::Scene& scene) {
     carry(world.air(), scene.time_s);
     left_out_ = gatherer_.left_out();
     settle_air(scene, at_once);
-    rain_mm_h_ = 0.0;
+    reaching_ = {};
     show(plane, scene, weather);
-    soak(scene.time_s, at_once);
+    cover_ground(scene, at_once);
     weather.wind_m_s = wind_at_eye(world, plane, scene.eye);
     move_eye(scene.eye, scene.time_s, at_once, weather);
     time_s_ = scene.time_s;
@@ -290,7 +293,11 @@ void WeatherBuilder::show_falling(const ShownLayer& layer, const render::Scene& 
         }
     }
     const double below_eye_mm_h = layer.state.rate_mm_h * layer.uncovered * weight_at_eye(area);
-    if (!snow && kind != Precipitation::Kind::kHail) rain_mm_h_ += below_eye_mm_h;
+    const double as_snow = snow ? 1.0 : kind == Precipitation::Kind::kSleet ? 0.5 : 0.0;
+    if (kind != Precipitation::Kind::kHail) {
+        reaching_.snow_mm_h += as_snow * below_eye_mm_h;
+        reaching_.rain_mm_h += (1.0 - as_snow) * below_eye_mm_h;
+    }
     const double rate_mm_h = below_eye_mm_h * weight_at_height(layer.state, scene.eye.height_m);
     if (rate_mm_h <= 0.0) return;
     // One of each kind: there is room for all.
@@ -305,21 +312,12 @@ void WeatherBuilder::show_falling(const ShownLayer& layer, const render::Scene& 
     weather.precipitations[weather.precipitation_count++] = {kind, rate_mm_h, made.top_m};
 }
 
-void WeatherBuilder::soak(double time_s, bool at_once) noexcept {
-    // This much rain keeps all of the land wet; a millimetre makes it so.
-    constexpr double kKeepsWet_mm_h = 1.0;
-    constexpr double kSoaks_mm = 1.0;
-    constexpr double kDries_s = 1800.0;
-    const double kept = std::min(rain_mm_h_ / kKeepsWet_mm_h, 1.0);
+void WeatherBuilder::cover_ground(const render::Scene& scene, bool at_once) noexcept {
+    reaching_.air_c = scene.air.temperature_c;
     if (at_once) {
-        wet_ = kept;
-        return;
-    }
-    const double step_s = time_s - *time_s_;
-    if (kept > wet_) {
-        wet_ = std::min(kept, wet_ + rain_mm_h_ / 3600.0 * step_s / kSoaks_mm);
+        ground_.settle(reaching_);
     } else {
-        wet_ = kept + (wet_ - kept) * std::exp(-step_s / kDries_s);
+        ground_.advance(reaching_, scene.time_s - *time_s_);
     }
 }
 

@@ -10,6 +10,7 @@
 #include "render/scene.h"
 #include "server/weather/drifts.h"
 #include "server/weather/gather.h"
+#include "server/weather/ground_cover.h"
 #include "server/weather/ramps.h"
 #include "server/world/world.h"
 
@@ -48,8 +49,9 @@ class WeatherBuilder {
     /// Of the last frame: layers for which the scene has no place, the furthest.
     [[nodiscard]] std::size_t left_out() const noexcept { return left_out_; }
 
-    /// How wet rain has made the land below the eye, 0..1: it soaks in minutes and dries in half an hour.
-    [[nodiscard]] double wet() const noexcept { return wet_; }
+    /// Of the land below the eye: it soaks in minutes, dries in half an hour and whitens in an hour. A reset
+    /// of the world clears it; a clock that is set finds it as wet as it will be, under the snow that lay.
+    [[nodiscard]] const GroundCover& ground() const noexcept { return ground_; }
 
   private:
     [[nodiscard]] bool jumped(const world::World& world, double time_s) noexcept;
@@ -62,7 +64,7 @@ class WeatherBuilder {
                         render::Weather& weather) noexcept;
     void show_falling(const ShownLayer& layer, const render::Scene& scene,
                       const std::optional<render::WeatherArea>& area, render::Weather& weather) noexcept;
-    void soak(double time_s, bool at_once) noexcept;
+    void cover_ground(const render::Scene& scene, bool at_once) noexcept;
     void carry(const world::AirState& air, double time_s) noexcept;
     [[nodiscard]] glm::dvec3 wind_at_eye(const world::World& world, const EyePlane& plane,
                                          const render::Eye& eye) const noexcept;
@@ -80,9 +82,9 @@ class WeatherBuilder {
     glm::dvec3 eye_velocity_ecef_m_s_{0.0};
     bool eye_moves_ = false;
     std::size_t left_out_ = 0;
-    /// What rains on the ground below the eye in this frame.
-    double rain_mm_h_ = 0.0;
-    double wet_ = 0.0;
+    /// What falls on the ground below the eye in this frame.
+    Reaching reaching_;
+    GroundCover ground_;
     /// Of clouds, by the keyframes.
     double cloud_cover_ = 1.0;
 };

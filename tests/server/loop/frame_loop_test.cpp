@@ -311,10 +311,10 @@ TEST_F(FrameLoopTest, TellsOfDatagramsThatTheReceiverDropped) {
 TEST_F(FrameLoopTest, HandsEveryNthFrameToTheImageWriter) {
     std::vector<std::string> paths;
     ImageWriter images(
-        "out", render_channels(config_), 8,
-        [&](const std::string& path, const render::Channel&, std::span<const std::byte> rgba, std::string&) {
-            EXPECT_EQ(rgba.size(), 8U * 4 * 4);
-            EXPECT_EQ(rgba[5], std::byte{1});
+        {"out", render_channels(config_), 8},
+        [&](const std::string& path, const ImageWriter::Frame& frame, std::size_t channel, std::string&) {
+            EXPECT_EQ(frame.channels[channel].size(), 8U * 4 * 4);
+            EXPECT_EQ(frame.channels[channel][5], std::byte{1});
             paths.push_back(path);
             return true;
         });
@@ -323,6 +323,23 @@ TEST_F(FrameLoopTest, HandsEveryNthFrameToTheImageWriter) {
     EXPECT_EQ(paths, (std::vector<std::string>{"out/centre_000005.png", "out/centre_000010.png",
                                                "out/centre_000015.png", "out/centre_000020.png"}));
     EXPECT_EQ(loop_->report().images_written, 4U);
+}
+
+TEST_F(FrameLoopTest, HandsScenesToWhoDrawsThemItself) {
+    std::map<std::string, double> latitudes_deg;
+    ImageWriter images(
+        {"out", render_channels(config_), 8, ImageWriter::Takes::kScene, "exr"},
+        [&](const std::string& path, const ImageWriter::Frame& frame, std::size_t, std::string&) {
+            EXPECT_TRUE(frame.channels.empty());
+            EXPECT_EQ(frame.scene.frame_number, frame.number);
+            latitudes_deg[path] = frame.scene.eye.latitude_deg;
+            return true;
+        });
+    link_.put(kHost, Message(cigi::Version::k33, cigi::IgMode::kOperate, 1).at(45.0).bytes());
+    loop(10, &images, 5).run([] { return false; });
+    images.finish();
+    ASSERT_EQ(latitudes_deg.size(), 2U);
+    EXPECT_NEAR(latitudes_deg.at("out/centre_000010.exr"), 45.0, 1e-9);
 }
 
 TEST_F(FrameLoopTest, PublishesASnapshotTenTimesASecond) {
@@ -356,9 +373,8 @@ TEST_F(FrameLoopTest, PublishesASnapshotTenTimesASecond) {
 
 TEST_F(FrameLoopTest, AllocatesNothingInSteadyState) {
     config_.overlay = {.mode = true, .rate = true, .host = true, .host_lost = true};
-    ImageWriter images("out", render_channels(config_), 2,
-                       [](const std::string&, const render::Channel&, std::span<const std::byte>,
-                          std::string&) { return true; });
+    ImageWriter images({"out", render_channels(config_), 2}, [](const std::string&, const ImageWriter::Frame&,
+                                                                std::size_t, std::string&) { return true; });
     loop();
     std::deque<Message> messages;
     for (std::uint32_t i = 1; i <= 1100; ++i)

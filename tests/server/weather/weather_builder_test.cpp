@@ -10,6 +10,7 @@
 #include "config/warp/grey_map.h"
 #include "render/cloud/field/texture.h"
 #include "server/start_weather/layers.h"
+#include "server/world/conditions.h"
 #include "tests/server/weather/weather_bench.h"
 
 namespace skyig::server::weather {
@@ -201,6 +202,54 @@ TEST(WeatherBuilder, RainSoaksTheLandInMinutesAndItDriesInHalfAnHour) {
     bench.send(rain);
     bench.frame(100.0);
     EXPECT_EQ(bench.scene.ground.wet, 1.0);
+}
+
+TEST(WeatherBuilder, SnowWhitensTheLandUntilTheHostSaysHowMuchLies) {
+    WeatherBench bench;
+    WeatherBench replay;
+    cigi::AtmosphereControl frost = wind(5.0F, 270.0F);
+    frost.air_temperature = -3.0F;
+    cigi::WeatherControl snow = cloud(5, CloudType::kNone, 1500.0F, 100.0F);
+    snow.thickness = 1500.0F;
+    snow.severity = 3;
+    cigi::TerrestrialSurfaceControl told;
+    told.condition_id = world::kSnowCondition;
+    told.enable = true;
+    told.coverage = 20;
+    double first = 0.0, largest_step = 0.0;
+    for (WeatherBench* run : {&bench, &replay}) {
+        run->frame();
+        EXPECT_EQ(run->scene.ground.snow, 0.0);
+        run->send(frost, snow);
+        double before = 0.0;
+        for (int second = 0; second < 3600; ++second) {
+            const double now = run->frame(1.0).ground.snow;
+            largest_step = std::max(largest_step, std::abs(now - before));
+            before = now;
+        }
+        if (run == &bench) first = before;
+        EXPECT_EQ(before, first) << "the same weather, the same snow";
+        run->send(told);
+        EXPECT_DOUBLE_EQ(run->frame(1.0).ground.snow, 0.2);
+    }
+    std::printf("  an hour of snow covers %.2f, by %.1e a second at most\n", first, largest_step);
+    EXPECT_GT(first, 0.6);
+    EXPECT_LT(largest_step, 1e-3);
+    told.condition_id = world::kDryCondition;
+    bench.send(told);
+    EXPECT_DOUBLE_EQ(bench.frame(1.0).ground.snow, 0.2) << "told beside it";
+    told.condition_id = world::kSnowCondition;
+    told.enable = false;
+    bench.send(told);
+    EXPECT_DOUBLE_EQ(bench.frame(1.0).ground.snow, 0.0) << "dry";
+    told.condition_id = world::kDryCondition;
+    bench.send(told);
+    EXPECT_GT(bench.frame(1.0).ground.snow, 0.6) << "what fell meanwhile";
+    told.condition_id = world::kWetCondition;
+    told.enable = true;
+    told.coverage = 70;
+    bench.send(told);
+    EXPECT_DOUBLE_EQ(bench.frame(1.0).ground.wet, 0.7);
 }
 
 /// Least of several rounds of a frame's part.
