@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "config/warp/grey_map.h"
+#include "render/cloud/field/texture.h"
 #include "render/weather_area.h"
 #include "render/weather_ramp.h"
 #include "server/start_weather/layers.h"
@@ -76,11 +78,42 @@ Obscurant obscurant_of(const ShownLayer& layer, Obscurant::Kind kind, const glm:
     return obscurant;
 }
 
+static_assert(static_cast<int>(config::CloudNoise::kPuffs) == static_cast<int>(render::CloudNoise::kPuffs) &&
+                  static_cast<int>(config::CloudNoise::kFibres) ==
+                      static_cast<int>(render::CloudNoise::kFibres),
+              "one order of noises in settings and scene");
+
+render::CloudLook look_of(const config::WeatherSheet& sheet) {
+    render::CloudLook look;
+    for (render::CloudLook::Tile& tile : look.tiles)
+        tile.weight = 0.0;
+    for (std::size_t i = 0; i < std::min(sheet.textures.size(), look.tiles.size()); ++i) {
+        const config::WeatherTexture& texture = sheet.textures[i];
+        render::CloudLook::Tile& tile = look.tiles[i];
+        if (texture.image) {
+            tile.picture = std::make_shared<render::cloud::field::Texture>(texture.image->width_px,
+                                                                           texture.image->values);
+        }
+        tile.noise = static_cast<render::CloudNoise>(texture.noise);
+        tile.times = std::max(static_cast<int>(std::lround(config::kTexturesRepeat_m / texture.size_m)), 1);
+        tile.scroll_m_s = wind_towards_m_s(texture.scroll_m_s, texture.scroll_from_deg);
+        tile.weight = texture.weight;
+    }
+    look.density_offset = sheet.density_offset;
+    look.self_shadow = sheet.self_shadow;
+    look.colour = {sheet.colour[0], sheet.colour[1], sheet.colour[2]};
+    return look;
+}
+
 }  // namespace
 
-WeatherSettings weather_settings(const config::Weather& weather) noexcept {
-    WeatherSettings settings{
-        weather.transition_s, weather.elevation_m, static_cast<render::CloudModel>(weather.clouds), {}};
+WeatherSettings weather_settings(const config::Weather& weather) {
+    WeatherSettings settings;
+    settings.transition_s = weather.transition_s;
+    settings.elevation_m = weather.elevation_m;
+    settings.clouds = static_cast<render::CloudModel>(weather.clouds);
+    for (const config::WeatherSheet& sheet : weather.sheets)
+        settings.looks[static_cast<std::size_t>(genus_of(sheet.type))] = look_of(sheet);
     if (weather.driver == config::WeatherDriver::kKeyframes) settings.keyframes = weather.keyframes;
     return settings;
 }
@@ -230,6 +263,7 @@ void WeatherBuilder::show_cloud(const ShownLayer& layer, const render::Scene& sc
     cloud.severity = state.severity;
     cloud.seed = seed_of(layer.told.key);
     cloud.area = area;
+    cloud.look = settings_.looks[layer.told.key.kind];
 }
 
 void WeatherBuilder::show_obscurant(const ShownLayer& layer, const std::optional<WeatherArea>& area,

@@ -16,6 +16,9 @@
 
 namespace skyig::server::weather {
 
+/// Numbers of render::CloudGenus, 0 with them.
+inline constexpr std::size_t kCloudGenera = 11;
+
 struct WeatherSettings {
     /// How long a change takes, >= 0.
     double transition_s = 10.0;
@@ -24,9 +27,11 @@ struct WeatherSettings {
     render::CloudModel clouds = render::CloudModel::kAuto;
     /// They make the air, the stars and the colours of the sky, and scale the clouds; none: the host does.
     std::optional<config::Keyframes> keyframes;
+    /// Of genera that are drawn as sheets of their own, by render::CloudGenus.
+    std::array<std::optional<render::CloudLook>, kCloudGenera> looks;
 };
 
-[[nodiscard]] WeatherSettings weather_settings(const config::Weather& weather) noexcept;
+[[nodiscard]] WeatherSettings weather_settings(const config::Weather& weather);
 
 /// Fills the scene's weather, and its air's visibility while that changes. What is told is shown after
 /// `transition_s`; the first frame, a jump of the clock and the world's reset are shown at once.
