@@ -219,11 +219,11 @@ void FrameLoop::tell_monitors() {
         told_hidden_[channel] = hidden;
         const std::string& name = config_.channels[channel].name;
         if (hidden) {
-            parts_.log.limited({"monitor gone", channel}, kRepeatAfter_s, Severity::kWarning,
+            parts_.log.limited({"monitor gone", channel}, kRemindAfter_s, Severity::kWarning,
                                "channel {} is not shown: its monitor is gone; its window waits for that",
                                name);
         } else {
-            parts_.log.limited({"monitor back", channel}, kRepeatAfter_s, Severity::kNotice,
+            parts_.log.limited({"monitor back", channel}, kRemindAfter_s, Severity::kNotice,
                                "channel {} is shown again: its monitor is back", name);
         }
     }
@@ -293,7 +293,7 @@ void FrameLoop::tell_spacing() {
     // Single ones are a driver's; a second of them is a display that nobody waits for.
     if (static_cast<double>(spaced - told_spaced_) < config_.daemon.rate_hz) return;
     told_spaced_ = spaced;
-    parts_.log.limited("spaced", kRepeatAfter_s, Severity::kNotice,
+    parts_.log.limited("spaced", kRemindAfter_s, Severity::kNotice,
                        "the windows' swap does not wait for a display: the clock spaces frames at {:g} Hz "
                        "({} frames since the start)",
                        config_.daemon.rate_hz, spaced);
