@@ -91,6 +91,7 @@ bool FrameLoop::run_frame() {
     draw(scene, stopwatch, times);
     const bool wanted = parts_.painter.present();
     if (!wanted) parts_.log.notice("a window was closed: the daemon ends");
+    tell_monitors();
     times.display_ns = stopwatch.lap_ns();
     if (parts_.wire.live()) delays_.shown(parts_.clock.utc_ns(), inbox_.frame_arrivals());
     hand_out(scene);
@@ -200,12 +201,30 @@ void FrameLoop::tell_channels() {
         const std::string& name = config_.channels[channel].name;
         if (health.failed) {
             parts_.log.limited({"channel failed", channel}, kRemindAfter_s, Severity::kWarning,
-                               "channel {} cannot be drawn: {}; it is crossed out in red and tried again",
-                               name, health.reason());
+                               "channel {} cannot be drawn: {}; {}", name, health.reason(),
+                               health.crossed_out ? "it is crossed out in red and tried again"
+                                                  : "nothing is shown of it until then");
         } else {
             parts_.log.limited({"channel drawn", channel}, kRemindAfter_s, Severity::kNotice,
                                "channel {} is drawn again, after {} failures since the start", name,
                                health.failures);
+        }
+    }
+}
+
+void FrameLoop::tell_monitors() {
+    for (std::size_t channel = 0; channel < config_.channels.size(); ++channel) {
+        const bool hidden = parts_.painter.hides(channel);
+        if (hidden == told_hidden_[channel]) continue;
+        told_hidden_[channel] = hidden;
+        const std::string& name = config_.channels[channel].name;
+        if (hidden) {
+            parts_.log.limited({"monitor gone", channel}, kRemindAfter_s, Severity::kWarning,
+                               "channel {} is not shown: its monitor is gone; its window waits for that",
+                               name);
+        } else {
+            parts_.log.limited({"monitor back", channel}, kRemindAfter_s, Severity::kNotice,
+                               "channel {} is shown again: its monitor is back", name);
         }
     }
 }
@@ -245,6 +264,7 @@ void FrameLoop::watch(const FramePacer::Slot& slot) {
         ++watched_.late;
     }
     watched_.slots += slot.slots;
+    tell_spacing();
     if (static_cast<double>(watched_.slots) * parts_.pace.period_s() < kWatchFor_s) return;
     tell_late_frames();
     tell_dropped_datagrams();
@@ -266,6 +286,17 @@ void FrameLoop::tell_thinning(Overload::Step step) {
                            "{} is back: a frame takes {:.1f} of {:.1f} ms", what,
                            state.last_load * parts_.pace.period_s() * 1e3, parts_.pace.period_s() * 1e3);
     }
+}
+
+void FrameLoop::tell_spacing() {
+    const std::uint64_t spaced = parts_.pace.spaced();
+    // Single ones are a driver's; a second of them is a display that nobody waits for.
+    if (static_cast<double>(spaced - told_spaced_) < config_.daemon.rate_hz) return;
+    told_spaced_ = spaced;
+    parts_.log.limited("spaced", kRemindAfter_s, Severity::kNotice,
+                       "the windows' swap does not wait for a display: the clock spaces frames at {:g} Hz "
+                       "({} frames since the start)",
+                       config_.daemon.rate_hz, spaced);
 }
 
 void FrameLoop::tell_late_frames() {
