@@ -127,6 +127,7 @@ Cost cost_of(Pass pass) {
         case Pass::kPrecipitation:
         case Pass::kSunGlare:
         case Pass::kMoonGlare:
+        case Pass::kWindscreen:
         case Pass::kPattern:
         case Pass::kOverlay:
             break;
@@ -209,6 +210,13 @@ void plan_ground(Plan& plan, const Scene& scene) {
 
 void plan_over_pictures(Plan& plan, const Scene& scene) {
     const auto views = scene.channel_views();
+    const bool pane = std::any_of(views.begin(), views.end(),
+                                  [](const ChannelView& view) { return view.windscreen_m > 0.0F; });
+    const bool rain = scene.weather.precipitation_count > 0;
+    put(plan, Pass::kWindscreen,
+        !pane  ? Verdict{false, "no channel looks through one"}
+        : rain ? Verdict{true, "what falls stands in drops on a channel's pane"}
+               : Verdict{true, "drops that are left on a channel's pane dry off; free of cost without any"});
     const bool pattern = std::any_of(views.begin(), views.end(),
                                      [](const ChannelView& view) { return view.pattern != Pattern::kOff; });
     put(plan, Pass::kPattern,
@@ -224,10 +232,10 @@ void plan_over_pictures(Plan& plan, const Scene& scene) {
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables",    "sun sky",       "moon sky",   "night sky", "veil",           "clouds",
-        "near clouds",   "cloud shadows", "dome",       "waves",     "milky way",      "stars",
-        "corona",        "sun disc",      "moon disc",  "exposure",  "covered things", "wet things",
-        "precipitation", "sun glare",     "moon glare", "pattern",   "overlay"};
+        "air tables",    "sun sky",       "moon sky",   "night sky",  "veil",           "clouds",
+        "near clouds",   "cloud shadows", "dome",       "waves",      "milky way",      "stars",
+        "corona",        "sun disc",      "moon disc",  "exposure",   "covered things", "wet things",
+        "precipitation", "sun glare",     "moon glare", "windscreen", "pattern",        "overlay"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 

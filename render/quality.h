@@ -29,10 +29,11 @@ enum class Pass {
     kPrecipitation,  ///< streaks of what falls near the eye
     kSunGlare,       ///< the veil round the disc in the eye
     kMoonGlare,
-    kPattern,  ///< a test pattern in place of the sky
-    kOverlay,  ///< texts over the picture
+    kWindscreen,  ///< drops on the panes of channels that have one
+    kPattern,     ///< a test pattern in place of the sky
+    kOverlay,     ///< texts over the picture
 };
-inline constexpr std::size_t kPassCount = 23;
+inline constexpr std::size_t kPassCount = 24;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 

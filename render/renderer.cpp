@@ -30,6 +30,7 @@
 #include "render/star_pass.h"
 #include "render/thing_cover.h"
 #include "render/warp_pass.h"
+#include "render/windscreen_pass.h"
 
 namespace skyig::render {
 
@@ -138,6 +139,7 @@ struct Renderer::Impl {
     GlarePass moon_glare{placement};
     std::unique_ptr<DeferredPass> deferred;  // once a scene is drawn
     ThingCover cover{channels.size()};
+    WindscreenPass windscreens{channels.size()};
     std::unique_ptr<PatternPass> patterns;  // once one is shown
     std::unique_ptr<TextPass> texts;        // once there are any
 
@@ -173,6 +175,8 @@ void Renderer::Impl::finish(std::size_t channel) {
         warps.resample(channel, *flat_pictures[channel]);
     }
     pictures.finish(channel);
+    if (shows_screen && !shows_pattern(channel) && !channels[channel].warp)
+        windscreens.draw(channel, scene.views[channel], pictures.whole(channel));
     if (shows_screen) blend.draw(channel, pictures.whole(channel), tone32(channel).encode_power);
     if (shows_pattern(channel) || (shows_screen && scene.views[channel].overlay != 0)) write_texts(channel);
     gl::finish();
@@ -345,6 +349,7 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     m.prepare_discs(0);
     if (m.deferred) m.refresh_deferred();
     m.cover.prepare(m.scene, m.frame);
+    m.windscreens.prepare(scene);
     m.report.plan = m.frame.plan();
     m.report.adaptation_cd_m2 = m.frame.adaptation_cd_m2();
     m.report.gl_errors = m.log.errors();
