@@ -99,8 +99,8 @@ TEST(ImpostorField, ShadesTheGroundAsItsParticlesDo) {
     sky.show(moment);
     const CloudBeam beam{kSunWay, 0.0F};
     // To the north of the eye; the truth looks up from each place.
-    constexpr std::size_t kPlaces = 300;
-    constexpr double kApart_m = 25.0;
+    constexpr std::size_t kPlaces = 60;
+    constexpr double kApart_m = 130.0;
     std::vector<glm::vec2> places;
     for (std::size_t i = 0; i < kPlaces; ++i)
         places.emplace_back(0.0F, static_cast<float>(kApart_m * static_cast<double>(i)));
