@@ -6,9 +6,9 @@ else()
   set(etc ${CMAKE_INSTALL_PREFIX}/etc)
 endif()
 
-if(NOT EXISTS "$ENV{DESTDIR}${etc}/skyig/skyigd.toml")
+if(NOT EXISTS "$ENV{DESTDIR}${etc}/skyig/site.toml")
   file(INSTALL DESTINATION ${etc}/skyig TYPE FILE FILES ${skyig_source}/config/examples/one-channel.toml
-    RENAME skyigd.toml)
+    RENAME site.toml)
 endif()
 
 file(GLOB units ${skyig_source}/packaging/*.service)

@@ -13,7 +13,7 @@
 
 namespace skyig::render {
 
-/// CIGI's cloud types by their numbers.
+/// CIGI's cloud types by their numbers, and what is drawn like a cloud without being one.
 enum class CloudGenus : std::uint8_t {
     kAltocumulus = 1,
     kAltostratus,
@@ -25,6 +25,7 @@ enum class CloudGenus : std::uint8_t {
     kNimbostratus,
     kStratocumulus,
     kStratus,
+    kFogPatches,  ///< fog on the ground with gaps: coverage is the part where it is half as dense or more
 };
 
 /// How a layer is drawn. kAuto: the plan takes the cheapest that keeps to the error budget.

@@ -7,6 +7,7 @@
 
 #include "config/warp/grey_map.h"
 #include "render/cloud/field/texture.h"
+#include "render/fog/patches.h"
 #include "render/weather_area.h"
 #include "render/weather_ramp.h"
 #include "server/start_weather/layers.h"
@@ -225,7 +226,7 @@ void WeatherBuilder::show(const EyePlane& plane, const render::Scene& scene,
                 show_cloud(layer, scene, area, weather);
                 break;
             case Family::kObscurant:
-                show_obscurant(layer, area, weather);
+                show_obscurant(layer, scene, area, weather);
                 break;
             case Family::kFalling:
                 show_falling(layer, scene, area, weather);
@@ -266,11 +267,25 @@ void WeatherBuilder::show_cloud(const ShownLayer& layer, const render::Scene& sc
     cloud.look = settings_.looks[layer.told.key.kind];
 }
 
-void WeatherBuilder::show_obscurant(const ShownLayer& layer, const std::optional<WeatherArea>& area,
+void WeatherBuilder::show_obscurant(const ShownLayer& layer, const render::Scene& scene,
+                                    const std::optional<WeatherArea>& area,
                                     render::Weather& weather) noexcept {
     const LayerKey& key = layer.told.key;
     Obscurant made = obscurant_of(layer, static_cast<Obscurant::Kind>(key.kind), drifts_.at(key.place), area);
     made.coverage = layer.state.coverage;
+    const render::fog::PatchedFog fog = render::fog::in_patches(made, std::min(scene.eye.height_m, 0.0));
+    if (fog.patches.coverage > 0.0 && fog.patches.extinction_per_m > 0.0) {
+        // Where there is no place for them their mean is shown.
+        if (weather.cloud_count == render::Weather::kMaxClouds) {
+            add(made, weather);
+            return;
+        }
+        weather.clouds[weather.cloud_count++] = fog.patches;
+    }
+    add(fog.even, weather);
+}
+
+void WeatherBuilder::add(const Obscurant& made, render::Weather& weather) noexcept {
     if (made.extinction_per_m <= 0.0) return;
     if (weather.obscurant_count == render::Weather::kMaxObscurants) {
         ++left_out_;
@@ -285,13 +300,7 @@ void WeatherBuilder::show_falling(const ShownLayer& layer, const render::Scene& 
     const bool snow = kind == Precipitation::Kind::kSnow;
     const Obscurant made = obscurant_of(layer, snow ? Obscurant::Kind::kSnow : Obscurant::Kind::kRain,
                                         drifts_.at(layer.told.key.place), area);
-    if (made.extinction_per_m > 0.0) {
-        if (weather.obscurant_count == render::Weather::kMaxObscurants) {
-            ++left_out_;
-        } else {
-            weather.obscurants[weather.obscurant_count++] = made;
-        }
-    }
+    add(made, weather);
     const double below_eye_mm_h = layer.state.rate_mm_h * layer.uncovered * weight_at_eye(area);
     const double as_snow = snow ? 1.0 : kind == Precipitation::Kind::kSleet ? 0.5 : 0.0;
     if (kind != Precipitation::Kind::kHail) {

@@ -60,8 +60,9 @@ class WeatherBuilder {
     void show(const EyePlane& plane, const render::Scene& scene, render::Weather& weather) noexcept;
     void show_cloud(const ShownLayer& layer, const render::Scene& scene,
                     const std::optional<render::WeatherArea>& area, render::Weather& weather) noexcept;
-    void show_obscurant(const ShownLayer& layer, const std::optional<render::WeatherArea>& area,
-                        render::Weather& weather) noexcept;
+    void show_obscurant(const ShownLayer& layer, const render::Scene& scene,
+                        const std::optional<render::WeatherArea>& area, render::Weather& weather) noexcept;
+    void add(const render::Obscurant& made, render::Weather& weather) noexcept;
     void show_falling(const ShownLayer& layer, const render::Scene& scene,
                       const std::optional<render::WeatherArea>& area, render::Weather& weather) noexcept;
     void cover_ground(const render::Scene& scene, bool at_once) noexcept;

@@ -113,7 +113,8 @@ Coverage::Coverage(const Noise& noise) {
         const std::vector<float> flats = flat_values_of(shape);
         const float full = lowest_value(shape) - shape.edge;
         for (std::size_t d = 0; d < kDepths.size(); ++d) {
-            const float part = hiding_part(kDepths[d]);
+            const float own = genus_of(genus).covered_part;
+            const float part = own > 0.0F ? own : hiding_part(kDepths[d]);
             for (std::size_t i = 0; i < columns.size(); ++i)
                 thresholds[i] = threshold_of(columns[i], shape.edge, part);
             put_curve(thresholds, full, curves_[static_cast<std::size_t>(Drawn::kVolume)][g][d]);

@@ -295,7 +295,8 @@ void stack(const Sky& sky, Field& field) {
     for (std::size_t k = 0; k < sky.count; ++k) {
         const Layer& layer = order[k]->layer;
         const Genus& genus = genus_of(order[k]->cloud->genus);
-        const Cells own = cells_of(std::min(genus.step_m, 0.1F * layer.thickness_m), genus.stride_m);
+        const Cells own =
+            cells_of(std::min(genus.step_m, genus.step_part * layer.thickness_m), genus.stride_m);
         const bool joins =
             field.deck_count > 0 && !layer.sheet && low_of(layer) < field.decks[field.deck_count - 1].high_m;
         if (!joins)

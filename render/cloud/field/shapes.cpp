@@ -148,6 +148,25 @@ constexpr Genus cirrocumulus() {
     return g;
 }
 
+// Patches some 300 m across, upright from the ground to the top: fog pools, it does not heap. Between full
+// and nothing lie some 60 m.
+constexpr Genus fog_patches() {
+    Genus g;
+    g.flats = {{{Sheet::kSmooth, turned(2, 1), 0.30F}, {Sheet::kSmooth, turned(34, 13), 1.0F}, {}}};
+    g.push = {0.05F, 0.03F};
+    g.edge = 0.2F;
+    g.reach_m = 90.0F;
+    g.step_m = 10.0F;
+    g.stride_m = 40.0F;
+    g.step_part = 0.5F;
+    g.extinction_per_m = 0.01F;
+    g.usual_thickness_m = 50.0F;
+    g.covered_part = 0.5F;
+    // A gap that a runway lies in is to stay where it is against the drift.
+    g.change_m_s = 0.0F;
+    return g;
+}
+
 constexpr Genus tower() {
     Genus g = cumulonimbus();
     g.lift = {0.30F, 0.40F, 0.0F};
@@ -164,7 +183,8 @@ constexpr std::array<Genus, kGenera> kGenus{tower(),
                                             cumulus(),
                                             smooth_sheet(5, 0.04F, 3000.0F),
                                             stratocumulus(),
-                                            smooth_sheet(9, 0.05F, 300.0F)};
+                                            smooth_sheet(9, 0.05F, 300.0F),
+                                            fog_patches()};
 
 // 0..1, of a layer's seed and an octave.
 double chance(std::uint32_t seed, std::uint32_t octave) {

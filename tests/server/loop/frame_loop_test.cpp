@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "protocol/cigi/message.h"
+#include "server/status/account.h"
 #include "tests/server/loop/loop_fixture.h"
 #include "tests/support/allocation_count.h"
 
@@ -122,19 +123,50 @@ TEST_F(FrameLoopTest, NamesAChannelThatCannotBeDrawn) {
     loop();
     loop_->run_frame();
     EXPECT_TRUE(lines_.empty()) << ::testing::PrintToString(lines_);
-    painter_.channel_health.failed = true;
+    painter_.channel_health.failed = painter_.channel_health.crossed_out = true;
     painter_.channel_health.failures = 1;
     painter_.channel_health.set_reason("out of wonders");
     for (int i = 0; i < 20; ++i)
         loop_->run_frame();
     ASSERT_EQ(lines_.size(), 1U) << ::testing::PrintToString(lines_);
-    EXPECT_THAT(lines_[0], HasSubstr("channel centre cannot be drawn: out of wonders"));
+    EXPECT_THAT(lines_[0],
+                HasSubstr("channel centre cannot be drawn: out of wonders; it is crossed out in red"));
     EXPECT_TRUE(status_->newest().health[0].failed);
     EXPECT_EQ(status_->newest().health[0].reason(), "out of wonders");
     painter_.channel_health.failed = false;
     loop_->run_frame();
     ASSERT_EQ(lines_.size(), 2U) << ::testing::PrintToString(lines_);
     EXPECT_THAT(lines_[1], HasSubstr("channel centre is drawn again, after 1 failures"));
+}
+
+TEST_F(FrameLoopTest, OfALostDevicesChannelsItSaysThatNothingIsShown) {
+    loop();
+    painter_.channel_health.failed = true;
+    painter_.channel_health.set_reason("no device");
+    loop_->run_frame();
+    ASSERT_EQ(lines_.size(), 1U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[0], HasSubstr("cannot be drawn: no device; nothing is shown of it until then"));
+}
+
+TEST_F(FrameLoopTest, TellsOfAMonitorThatIsGoneAndGoesOn) {
+    loop();
+    loop_->run_frame();
+    painter_.hidden = true;
+    for (int i = 0; i < 50; ++i)
+        EXPECT_TRUE(loop_->run_frame());
+    ASSERT_EQ(lines_.size(), 1U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[0], HasSubstr("channel centre is not shown: its monitor is gone"));
+    EXPECT_TRUE(status_->newest().hidden[0]);
+    const status::Facts facts = loop_->facts();
+    const status::Health health = status::health_of(facts, status_->newest(), clock_.monotonic_ns());
+    EXPECT_FALSE(health.good);
+    EXPECT_EQ(health.text, "channel centre is not shown: its monitor is gone");
+    painter_.hidden = false;
+    for (int i = 0; i < 20; ++i)
+        loop_->run_frame();
+    ASSERT_EQ(lines_.size(), 2U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[1], HasSubstr("channel centre is shown again"));
+    EXPECT_FALSE(status_->newest().hidden[0]);
 }
 
 TEST_F(FrameLoopTest, OverlayTellsModeRateAndTheHostThatIsLost) {

@@ -368,6 +368,60 @@ std::vector<CloudRay> tiles_of_rays(double lowest, double highest) {
     return rays;
 }
 
+// What a black mark at that distance keeps of its contrast, among patches of fog: by the march, and by a sum
+// of a metre's steps over the field's own value in double.
+TEST(CloudField, ContrastAmongPatchesOfFogIsThatOfThePath) {
+    constexpr double kEye_m = 3.0;
+    constexpr double kPerM = 2.996 / 100.0 - 2.996 / 1500.0;
+    CloudField field(matrix());
+    double largest = 0.0;
+    int compared = 0;
+    int gaps = 0;
+    for (int place = 0; place < 24; ++place) {
+        CloudLayer fog = layer_of(CloudGenus::kFogPatches, 0.0, 40.0, 0.5);
+        fog.top_band_m = 10.0;
+        fog.extinction_per_m = kPerM;
+        fog.drift_m = kWorld_m * glm::dvec2(std::fmod(0.7548776662466927 * place, 1.0),
+                                            std::fmod(0.5698402909980532 * place, 1.0));
+        field.freeze(scene_of({fog}, kEye_m), plain_light());
+        const Layer& layer = field.field().layers[0];
+        const double azimuth = 2.4 * place;
+        const std::array<CloudRay, 1> ray{
+            {{glm::vec3{glm::dvec3{std::sin(azimuth), std::cos(azimuth), 0.0}}}}};
+        double depth = 0.0;
+        for (int first = 0; first < 640; first += kRays) {
+            Points points{};
+            for (int i = 0; i < kRays; ++i) {
+                const double along_m = first + i + 0.5;
+                points.north_m[i] = static_cast<float>(along_m * std::cos(azimuth));
+                points.east_m[i] = static_cast<float>(along_m * std::sin(azimuth)) +
+                                   field.field().closing * points.north_m[i];
+                points.height_m[i] = static_cast<float>(kEye_m);
+            }
+            kernels().values(layer.shape, layer.thickness_m, points);
+            for (const float value : points.value) {
+                const double x =
+                    std::clamp(static_cast<double>((value - layer.threshold) / layer.shape.edge), 0.0, 1.0);
+                depth += kPerM * x * x * (3.0 - 2.0 * x);
+            }
+            const double to_m = first + kRays;
+            if (depth > 3.0) break;
+            std::array<CloudSample, 1> sample;
+            field.march(ray, {0.0F, static_cast<float>(to_m)}, 1e-3F, sample);
+            const double marched = static_cast<double>(sample[0].transmittance);
+            largest = std::max(largest, std::abs(marched / std::exp(-depth) - 1.0));
+            ++compared;
+            gaps += depth == 0.0 ? 1 : 0;
+        }
+    }
+    std::printf("%d marks among patches, %d of them through a gap alone: contrast within %.2f %%\n", compared,
+                gaps, 100.0 * largest);
+    RecordProperty("largest_relative_error", std::to_string(largest));
+    EXPECT_GT(compared, 60);
+    EXPECT_GT(gaps, 5);
+    EXPECT_LT(largest, 0.05);
+}
+
 TEST(CloudField, TellsWhatARayCosts) {
     struct Case {
         const char* name;
