@@ -124,15 +124,16 @@ TEST(ImpostorField, ShadesTheGroundAsItsParticlesDo) {
                 worst);
     EXPECT_LT(darkest, 0.2);
     EXPECT_GT(brightest, 0.98);
-    EXPECT_LT(worst, 0.06);
-    // A coarse grain keeps the mean depth, of which more light is left.
+    EXPECT_LT(worst, 0.03);
+    // A coarse grain keeps the mean depth, which leaves less light than the same in heaps.
     std::vector<float> coarse(kPlaces);
     sky.field.shadow(beam, 300.0F, places, coarse);
     double coarse_sum = 0.0;
     for (const float part : coarse)
         coarse_sum += static_cast<double>(part);
     std::printf("in the mean %.3f, with a grain of 300 m %.3f\n", sum / kPlaces, coarse_sum / kPlaces);
-    EXPECT_NEAR(coarse_sum / kPlaces, sum / kPlaces, 0.1);
+    EXPECT_LT(coarse_sum, sum);
+    EXPECT_NEAR(coarse_sum / kPlaces, sum / kPlaces, 0.15);
 }
 
 TEST(ImpostorField, MeetsNothingWhereThereIsNothing) {
