@@ -27,10 +27,13 @@ enum class Pass {
     kPrecipitation,  ///< streaks of what falls near the eye
     kSunGlare,       ///< the veil round the disc in the eye
     kMoonGlare,
-    kPattern,  ///< a test pattern in place of the sky
-    kOverlay,  ///< texts over the picture
+    kPattern,     ///< a test pattern in place of the sky
+    kOverlay,     ///< texts over the picture
+    kWarp,        ///< everything placed as a curved or turned screen shows it
+    kResampling,  ///< the same of a finished flat picture, pixel by pixel
+    kBlend,       ///< masks and black levels of projectors that overlap
 };
-inline constexpr std::size_t kPassCount = 21;
+inline constexpr std::size_t kPassCount = 24;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 
