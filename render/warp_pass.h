@@ -46,7 +46,7 @@ class WarpPass {
         gl::UniformBlock block;
     };
     struct Resampling {
-        gl::Program program{"warp/resample.vert", "warp/resample.frag"};
+        gl::Program program;
         std::vector<std::optional<gl::Mesh>> screens;  // by channel
     };
     std::span<const Channel> channels_;

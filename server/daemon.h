@@ -18,6 +18,8 @@ struct DaemonOptions {
     std::string config_path;
     /// Only check the settings.
     bool check = false;
+    /// Only print the settings that hold.
+    bool print_config = false;
     /// No windows, whatever the settings say.
     bool headless = false;
     /// Test pattern that all channels show at first, one of config::kPatternNames; empty: as the settings

@@ -63,8 +63,8 @@ std::pair<unsigned, unsigned> png_size(const std::string& path) {
 TEST(Skyigd, TellsHelpAndVersion) {
     const Finished help = skyigd({"--help"});
     EXPECT_EQ(help.status, 0);
-    for (const char* option :
-         {"--config", "--headless", "--frames", "--out", "--out-every", "--check", "--report"})
+    for (const char* option : {"--config", "--headless", "--frames", "--out", "--out-every", "--check",
+                               "--print-config", "--report"})
         EXPECT_THAT(help.out, HasSubstr(option));
     const Finished version = skyigd({"--version"});
     EXPECT_EQ(version.status, 0);
