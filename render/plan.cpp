@@ -130,6 +130,9 @@ Cost cost_of(Pass pass) {
         case Pass::kWindscreen:
         case Pass::kPattern:
         case Pass::kOverlay:
+        case Pass::kWarp:
+        case Pass::kResampling:
+        case Pass::kBlend:
             break;
     }
     return Cost::kChannel;
@@ -235,7 +238,8 @@ std::string_view pass_name(Pass pass) noexcept {
         "air tables",    "sun sky",       "moon sky",   "night sky",  "veil",           "clouds",
         "near clouds",   "cloud shadows", "dome",       "waves",      "milky way",      "stars",
         "corona",        "sun disc",      "moon disc",  "exposure",   "covered things", "wet things",
-        "precipitation", "sun glare",     "moon glare", "windscreen", "pattern",        "overlay"};
+        "precipitation", "sun glare",     "moon glare", "windscreen", "pattern",        "overlay",
+        "warp",          "resampling",    "blend"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -323,7 +327,26 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     for (const Pass pass : {Pass::kSunGlare, Pass::kMoonGlare})
         put(plan, pass, {false, "not decided yet"});
     plan_over_pictures(plan, scene);
+    plan_screens(plan, {});
     return plan;
+}
+
+void plan_screens(Plan& plan, std::span<const Channel> channels) noexcept {
+    const auto any = [channels](const auto& wanted) {
+        return std::any_of(channels.begin(), channels.end(), wanted);
+    };
+    const bool direct = any([](const Channel& c) { return c.warp && c.drawing == WarpDrawing::kDirect; });
+    const bool resampled =
+        any([](const Channel& c) { return c.warp && c.drawing == WarpDrawing::kResampled; });
+    const bool blended = any([](const Channel& c) { return c.blend != nullptr; });
+    put(plan, Pass::kWarp,
+        {direct, direct ? "a channel's screen is warped: all that is drawn is placed by it"
+                        : "no channel is drawn through a warp"});
+    put(plan, Pass::kResampling,
+        {resampled, resampled ? "the settings want a warped channel drawn flat and resampled"
+                              : "no warped channel is drawn flat"});
+    put(plan, Pass::kBlend,
+        {blended, blended ? "other projectors shine on a channel's screen" : "no channel has a mask"});
 }
 
 DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& quality) noexcept {

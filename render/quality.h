@@ -32,8 +32,11 @@ enum class Pass {
     kWindscreen,  ///< drops on the panes of channels that have one
     kPattern,     ///< a test pattern in place of the sky
     kOverlay,     ///< texts over the picture
+    kWarp,        ///< everything placed as a curved or turned screen shows it
+    kResampling,  ///< the same of a finished flat picture, pixel by pixel
+    kBlend,       ///< masks and black levels of projectors that overlap
 };
-inline constexpr std::size_t kPassCount = 24;
+inline constexpr std::size_t kPassCount = 27;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 

@@ -103,6 +103,8 @@ struct Renderer::Impl {
     [[nodiscard]] shaders32::ToneParameters tone32(std::size_t channel) const {
         return eye::single_precision(frame.tone(screens.of_channel[channel]));
     }
+    void make_ready() noexcept;
+    void make_flat_picture(std::size_t channel);
     void draw_world(std::size_t channel);
     void draw_sky(std::size_t channel);
     void draw_discs(std::size_t channel);
@@ -161,11 +163,9 @@ void Renderer::Impl::begin(std::size_t channel, bool flat) {
         warps.bind(channel);
         return;
     }
-    std::optional<gl::Framebuffer>& picture = flat_pictures[channel];
-    const Channel& size = flat_channels[channel];
-    if (!picture) picture.emplace(size.width_px, size.height_px, target_format);
+    make_flat_picture(channel);
     warps.bind_flat();
-    picture->bind();
+    flat_pictures[channel]->bind();
 }
 
 /// From what is drawn to the picture.
@@ -180,6 +180,25 @@ void Renderer::Impl::finish(std::size_t channel) {
     if (shows_screen) blend.draw(channel, pictures.whole(channel), tone32(channel).encode_power);
     if (shows_pattern(channel) || (shows_screen && scene.views[channel].overlay != 0)) write_texts(channel);
     gl::finish();
+}
+
+void Renderer::Impl::make_flat_picture(std::size_t channel) {
+    const Channel& size = flat_channels[channel];
+    if (!flat_pictures[channel]) flat_pictures[channel].emplace(size.width_px, size.height_px, target_format);
+}
+
+void Renderer::Impl::make_ready() noexcept {
+    try {
+        if (shows_screen && !patterns) patterns = std::make_unique<PatternPass>(placement);
+        if (shows_screen && !texts) texts = std::make_unique<TextPass>();
+        for (std::size_t i = 0; i < channels.size(); ++i) {
+            if (!channels[i].warp || channels[i].drawing != WarpDrawing::kResampled) continue;
+            make_flat_picture(i);
+            warps.make_resampling();
+        }
+    } catch (const std::exception&) {
+        // Left to draw(), which tries again and tells of it.
+    }
 }
 
 void Renderer::Impl::draw_pattern(std::size_t channel) {
@@ -351,6 +370,7 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
     m.cover.prepare(m.scene, m.frame);
     m.windscreens.prepare(scene);
     m.report.plan = m.frame.plan();
+    plan_screens(m.report.plan, m.channels);
     m.report.adaptation_cd_m2 = m.frame.adaptation_cd_m2();
     m.report.gl_errors = m.log.errors();
     return m.report;
@@ -398,6 +418,10 @@ void Renderer::draw(std::size_t channel) {
     else
         m.draw_world(channel);
     m.finish(channel);
+}
+
+void Renderer::make_ready() noexcept {
+    impl_->make_ready();
 }
 
 std::uint64_t Renderer::gl_errors() {

@@ -52,6 +52,10 @@ class Renderer {
     /// From the next frame on the scene's weather has clouds.
     void draw_clouds(Clouds clouds);
 
+    /// Makes now what a view may want in a later frame, so that none is held up by it: the passes of patterns
+    /// and texts, and of channels that are resampled. What cannot be made is left to draw().
+    void make_ready() noexcept;
+
     /// What frames leave out from the next one on. \see render::thinnable()
     void thin(Thinned thinned) noexcept;
 

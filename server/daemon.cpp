@@ -313,6 +313,7 @@ void run(const DaemonOptions& options, const config::Config& config,
     const std::unique_ptr<GlPainter> made = make_painter(options, config);
     GlPainter& painter = *made;
     painter.draw_clouds();
+    painter.make_ready();
     say_banner(log, config, painter, outside.heard(options, config));
     if (const std::string path = record_path(options, config, clock); !path.empty()) {
         outside.record(path, config,
