@@ -1,5 +1,5 @@
-// The page's colours against WCAG 2.1 AA: text 4.5 (1.4.3), edges and states of what is touched 3 (1.4.11), by the
-// relative luminance that it defines, from the style sheet that is served.
+// The page's colours against WCAG 2.1 AA: text 4.5 (1.4.3), edges and states of what is touched 3 (1.4.11),
+// by the relative luminance that it defines, from the style sheet that is served.
 #include <gtest/gtest.h>
 
 #include <algorithm>
