@@ -21,6 +21,7 @@
 #include "server/frame_loop.h"
 #include "server/from_config.h"
 #include "server/gl_painter.h"
+#include "server/live_settings.h"
 #include "server/live_wire.h"
 #include "server/log.h"
 #include "server/pace.h"
@@ -276,15 +277,44 @@ std::unique_ptr<GlPainter> make_painter(const DaemonOptions& options, const conf
     return std::make_unique<GlPainter>(std::move(settings));
 }
 
-void run(const DaemonOptions& options, const config::Config& config,
+/// The log's numbers of syslog for the settings' names.
+Severity severity_of(config::LogLevel level) noexcept {
+    return static_cast<Severity>(static_cast<int>(Severity::kError) + static_cast<int>(level));
+}
+
+/// Takes what can change while frames go on: it stands in `live` already. \param before  what held
+void take_settings(const config::Config& before, const config::Config& live, world::World& world,
+                   GlPainter& painter, Log& log) {
+    world.take_settings();
+    log.set_threshold(severity_of(live.log.level));
+    if (quality(before).error_codes != quality(live).error_codes) painter.take_quality(quality(live));
+}
+
+/// Once a frame: reads settings anew when that is asked for, and takes them when they have been read.
+void look_at_settings(bool asked, LiveSettings& settings, service::ServiceManager& service,
+                      const Clock& clock, Log& log, FrameLoop& loop, const LiveSettings::Take& take) {
+    if (asked) {
+        service.reloading(clock.monotonic_ns());
+        settings.read_anew();
+    }
+    const LiveSettings::Result result = settings.take(take, log);
+    if (result == LiveSettings::Result::kNone) return;
+    loop.note_settings(result == LiveSettings::Result::kTaken);
+    service.ready(result == LiveSettings::Result::kTaken ? "settings taken" : "settings refused");
+}
+
+void run(const DaemonOptions& options, const config::Config& start, const config::KeyLog& keys,
          ephemeris::EarthOrientation orientation) {
-    StopSignal stop;
+    StopSignal stop(true);
     SystemClock clock;
+    LiveSettings settings(options.config_path, start, keys);
+    const config::Config& config = settings.config();
     service::ServiceManager service = service::ServiceManager::from_environment();
     ManualClock replay_clock;
     std::ofstream events = open_events(options.events_path);
     const FrameLoop* running = nullptr;
-    Log log(options.replay_path.empty() ? static_cast<const Clock&>(clock) : replay_clock);
+    Log log(options.replay_path.empty() ? static_cast<const Clock&>(clock) : replay_clock,
+            severity_of(config.log.level), options.log_json ? Log::Form::kJson : Log::Form::kText);
     log.also_to([&events, &running](Severity, std::string_view line) {
         if (events.is_open())
             events << (running == nullptr ? 0 : running->frame_number()) << ' ' << line << '\n';
@@ -322,7 +352,16 @@ void run(const DaemonOptions& options, const config::Config& config,
     running = &loop;
     service.ready(outside.heard(options, config));
     const std::int64_t cpu_before_ns = clock.processor_ns();
-    loop.run([&stop] { return stop.requested(); });
+    const auto take = [&](const config::Config& before) {
+        take_settings(before, config, world, painter, log);
+    };
+    loop.run([&] {
+        const bool ends = stop.requested();
+        // A replay is the same each time.
+        const bool asked = stop.reload_requested() && options.replay_path.empty();
+        look_at_settings(asked, settings, service, clock, log, loop, take);
+        return ends;
+    });
     const std::int64_t cpu_ns = clock.processor_ns() - cpu_before_ns;
     service.stopping();
     if (images) images->finish();
@@ -339,12 +378,12 @@ void run(const DaemonOptions& options, const config::Config& config,
 
 }  // namespace
 
-int run_daemon(const DaemonOptions& options, const config::Config& config,
+int run_daemon(const DaemonOptions& options, const config::Config& config, const config::KeyLog& keys,
                ephemeris::EarthOrientation orientation) {
     // Who reads our lines may go at any time: that is a failed write, not our end.
     std::signal(SIGPIPE, SIG_IGN);
     try {
-        run(options, config, std::move(orientation));
+        run(options, config, keys, std::move(orientation));
         return 0;
     } catch (const std::exception& error) {
         fmt::print(stderr, "skyigd: {}\n", error.what());
