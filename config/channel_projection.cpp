@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "config/file_at.h"
 #include "config/schema.h"
 #include "config/warp/bytes.h"
 #include "config/warp/float_map.h"
@@ -20,25 +21,6 @@ namespace skyig::config {
 namespace {
 
 constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
-
-/// The file that a key names, through `read`: (bytes) -> warp::FileRead. An error at the key if it cannot be
-/// used.
-template <class Read>
-auto file_at(TableReader& table, std::string_view key, const std::string& settings_file, Read read)
-    -> decltype(read(warp::Bytes{}).value) {
-    std::string path;
-    const Value* value = table.text(key, path);
-    if (value == nullptr) return std::nullopt;
-    warp::FileRead<warp::Bytes> bytes = warp::read_bytes(beside(settings_file, path));
-    std::string fault = std::move(bytes.fault);
-    if (bytes.value) {
-        auto result = read(std::move(*bytes.value));
-        if (result.value) return std::move(result.value);
-        fault = std::move(result.fault);
-    }
-    table.error(*value, key, fmt::format("is \"{}\", which cannot be used: {}", path, fault));
-    return std::nullopt;
-}
 
 void read_size(TableReader& table, Channel& channel) {
     table.integer("width_px", channel.width_px, 1, kMaxChannelSize_px, "pixels");

@@ -305,4 +305,31 @@ void TableReader::finish() {
     }
 }
 
+void read_tables(TableReader& owner, ErrorList& errors, std::string_view key, std::string_view list_path,
+                 std::size_t there, std::size_t most, const ReadItem& read) {
+    const Value* value = owner.any(key);
+    if (value == nullptr) return;
+    const auto* list = std::get_if<Array>(&value->data);
+    if (list == nullptr) {
+        owner.error(*value, key, fmt::format("must be tables: write [[{}]] in double brackets", list_path));
+        return;
+    }
+    if (const std::size_t count = there + list->items.size(); count > most) {
+        const std::string_view whose = there > 0 ? " with the preset's" : "";
+        owner.error(*value, key, fmt::format("makes {}{}; at most {}", count, whose, most));
+        return;
+    }
+    int number = 0;
+    for (const Value& item : list->items) {
+        const auto* table = std::get_if<Table>(&item.data);
+        if (table == nullptr) {
+            owner.error(item, key, fmt::format("holds {}; write [[{}]] tables", type_name(item), list_path));
+            continue;
+        }
+        TableReader reader(errors, table, item.place, fmt::format("{}[{}]", owner.key_path(key), ++number));
+        read(reader);
+        reader.finish();
+    }
+}
+
 }  // namespace skyig::config

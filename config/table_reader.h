@@ -2,7 +2,9 @@
 // were asked for are the keys that exist: finish() reports all others with the nearest right one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -102,6 +104,14 @@ class TableReader {
     std::string path_;
     std::vector<std::string_view> known_;
 };
+
+using ReadItem = std::function<void(TableReader& item)>;
+
+/// The tables of a list such as [[weather.layer]], each finished after `read`.
+/// \param list_path  "weather.layer", for errors
+/// \param there  how many of `most` the preset has taken
+void read_tables(TableReader& owner, ErrorList& errors, std::string_view key, std::string_view list_path,
+                 std::size_t there, std::size_t most, const ReadItem& read);
 
 /// "a number", "text", ... for errors.
 [[nodiscard]] std::string_view type_name(const Value& value);

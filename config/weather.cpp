@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 
 #include "config/schema.h"
 
@@ -112,38 +111,6 @@ void read_layer(TableReader& table, WeatherLayer& layer) {
         table.error(*from, "wind_from_deg", "stands without wind_m_s; give both or none");
 }
 
-using ReadItem = std::function<void(TableReader& item)>;
-
-/// The tables of a list such as [[weather.layer]], each finished after `read`.
-/// \param list_path  "weather.layer", for errors
-/// \param there  how many of `most` the preset has taken
-void read_tables(TableReader& owner, ErrorList& errors, std::string_view key, std::string_view list_path,
-                 std::size_t there, std::size_t most, const ReadItem& read) {
-    const Value* value = owner.any(key);
-    if (value == nullptr) return;
-    const auto* list = std::get_if<Array>(&value->data);
-    if (list == nullptr) {
-        owner.error(*value, key, fmt::format("must be tables: write [[{}]] in double brackets", list_path));
-        return;
-    }
-    if (const std::size_t count = there + list->items.size(); count > most) {
-        const std::string_view whose = there > 0 ? " with the preset's" : "";
-        owner.error(*value, key, fmt::format("makes {}{}; at most {}", count, whose, most));
-        return;
-    }
-    int number = 0;
-    for (const Value& item : list->items) {
-        const auto* table = std::get_if<Table>(&item.data);
-        if (table == nullptr) {
-            owner.error(item, key, fmt::format("holds {}; write [[{}]] tables", type_name(item), list_path));
-            continue;
-        }
-        TableReader reader(errors, table, item.place, fmt::format("{}[{}]", owner.key_path(key), ++number));
-        read(reader);
-        reader.finish();
-    }
-}
-
 void read_layers(TableReader& owner, ErrorList& errors, std::string_view list_path,
                  std::vector<WeatherLayer>& layers) {
     read_tables(owner, errors, "layer", list_path, layers.size(), kMaxWeatherLayers,
@@ -202,6 +169,8 @@ void read_weather(TableReader table, ErrorList& errors, Weather& weather) {
     table.choice("clouds", weather.clouds, kCloudModelNames);
     table.choice("driver", weather.driver, kDriverNames);
     read_keyframes(table.table("keyframes"), weather.keyframes);
+    read_tables(table, errors, "sheet", "weather.sheet", weather.sheets.size(), kMaxWeatherSheets,
+                [&](TableReader& item) { read_weather_sheet(item, errors, weather.sheets.emplace_back()); });
     read_layers(table, errors, "weather.layer", weather.layers);
     read_areas(table, errors, weather.areas);
     table.finish();

@@ -1,14 +1,19 @@
 // The daemon put together from its parts, and run.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "config/config.h"
 #include "config/key_log.h"
 #include "server/ephemeris/earth_orientation.h"
 
 namespace skyig::server {
+
+/// Pictures as shown, or their light before eye and display. \see LightFiles
+inline constexpr std::array<std::string_view, 3> kOutFormats{"png", "exr", "pfm"};
 
 struct DaemonOptions {
     std::string config_path;
@@ -27,6 +32,8 @@ struct DaemonOptions {
     std::string out_directory;
     /// Every how many frames images are written, at least 1.
     std::uint64_t out_every = 1;
+    /// What images are written as, one of kOutFormats.
+    std::string out_format = "png";
     /// File for the report as JSON; empty = none.
     std::string report_path;
     /// Recording to run instead of listening; empty = none.

@@ -43,12 +43,17 @@ void declare(CLI::App& app, DaemonOptions& options) {
         ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000'000}))
         ->type_name("N");
     CLI::Option* out =
-        app.add_option("--out", options.out_directory, "write the channels' images here as PNG")
-            ->type_name("DIR");
+        app.add_option("--out", options.out_directory, "write the channels' images here")->type_name("DIR");
     app.add_option("--out-every", options.out_every, "write the images of every N-th frame only (1)")
         ->check(CLI::Range(1, 1'000'000'000))
         ->needs(out)
         ->type_name("N");
+    app.add_option("--out-format", options.out_format,
+                   "what they are: pictures as shown (png), or each pixel's light in cd/m2 (exr, pfm)")
+        ->check(CLI::IsMember(
+            std::vector<std::string>(skyig::server::kOutFormats.begin(), skyig::server::kOutFormats.end())))
+        ->needs(out)
+        ->type_name("NAME");
     app.add_option("--report", options.report_path, "write the report of the run here as JSON")
         ->type_name("FILE");
     CLI::Option* replay = app.add_option("--replay", options.replay_path,

@@ -16,6 +16,9 @@ type = "cumulus"
 [[weather.layer]]
 type = "rain"
 
+[[weather.sheet]]
+[[weather.sheet.texture]]
+
 [[weather.area]]
 half_length_m = 1
 

@@ -90,7 +90,8 @@ constexpr std::array kSiteMeanings{
     Meaning{"eye", "shoulder", "above which brightness is compressed; 1: it is clipped"},
     Meaning{"eye", "night_colours", "colours fade to the blue-grey of the rods by night"},
     Meaning{"eye", "adapt_to",
-            "log-average of directions round the horizon, or of what the channels see, or its mean"},
+            "log-average of directions round the horizon (by day more where a tenth of them is much "
+            "brighter), or of what the channels see, or its mean"},
     Meaning{"eye", "adaptation_cd_m2", "the eye is adapted to this always"},
     Meaning{"eye", "adapt_pace",
             "by the two constants below, or as cones and rods do, up to half an hour into the dark"},
