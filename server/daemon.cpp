@@ -296,25 +296,46 @@ Severity severity_of(config::LogLevel level) noexcept {
     return static_cast<Severity>(static_cast<int>(Severity::kError) + static_cast<int>(level));
 }
 
-/// Takes what can change while frames go on: it stands in `live` already. \param before  what held
-void take_settings(const config::Config& before, const config::Config& live, world::World& world,
-                   GlPainter& painter, Log& log) {
-    world.take_settings();
-    log.set_threshold(severity_of(live.log.level));
-    if (quality(before).error_codes != quality(live).error_codes) painter.take_quality(quality(live));
-}
+/// Who takes new settings, and who hears of it.
+struct Reload {
+    LiveSettings& settings;
+    service::ServiceManager& service;
+    const Clock& clock;
+    world::World& world;
+    GlPainter& painter;
+    Log& log;
 
-/// Once a frame: reads settings anew when that is asked for, and takes them when they have been read.
-void look_at_settings(bool asked, LiveSettings& settings, service::ServiceManager& service,
-                      const Clock& clock, Log& log, FrameLoop& loop, const LiveSettings::Take& take) {
-    if (asked) {
-        service.reloading(clock.monotonic_ns());
-        settings.read_anew();
+    /// Takes what can change while frames go on.
+    void take(const config::Config& before) const {
+        const config::Config& now = settings.config();
+        world.take_settings();
+        log.set_threshold(severity_of(now.log.level));
+        if (quality(before).error_codes != quality(now).error_codes) painter.take_quality(quality(now));
     }
-    const LiveSettings::Result result = settings.take(take, log);
-    if (result == LiveSettings::Result::kNone) return;
-    loop.note_settings(result == LiveSettings::Result::kTaken);
-    service.ready(result == LiveSettings::Result::kTaken ? "settings taken" : "settings refused");
+
+    /// Once a frame: reads settings anew when that is asked for, and takes them when they have been read.
+    void look(bool asked, FrameLoop& loop) const {
+        if (asked) {
+            service.reloading(clock.monotonic_ns());
+            settings.read_anew();
+        }
+        const LiveSettings::Result result =
+            settings.take([this](const config::Config& before) { take(before); }, log);
+        if (result == LiveSettings::Result::kNone) return;
+        const bool taken = result == LiveSettings::Result::kTaken;
+        loop.note_settings(taken);
+        service.ready(taken ? "settings taken" : "settings refused");
+    }
+};
+
+/// A replay is the same each time: it listens to no new settings.
+void run_frames(FrameLoop& loop, StopSignal& stop, const Reload& reload, bool replays) {
+    loop.run([&] {
+        const bool ends = stop.requested();
+        reload.look(stop.reload_requested() && !replays, loop);
+        return ends;
+    });
+    reload.service.stopping();
 }
 
 void run(const DaemonOptions& options, const config::Config& start, const config::KeyLog& keys,
@@ -345,6 +366,7 @@ void run(const DaemonOptions& options, const config::Config& start, const config
     const std::unique_ptr<GlPainter> made = make_painter(options, config);
     GlPainter& painter = *made;
     painter.draw_clouds();
+    painter.make_ready();
     say_banner(log, config, painter, outside.heard(options, config));
     if (const std::string path = record_path(options, config, clock); !path.empty()) {
         outside.record(path, config,
@@ -366,18 +388,8 @@ void run(const DaemonOptions& options, const config::Config& start, const config
     running = &loop;
     service.ready(outside.heard(options, config));
     const std::int64_t cpu_before_ns = clock.processor_ns();
-    const auto take = [&](const config::Config& before) {
-        take_settings(before, config, world, painter, log);
-    };
-    loop.run([&] {
-        const bool ends = stop.requested();
-        // A replay is the same each time.
-        const bool asked = stop.reload_requested() && options.replay_path.empty();
-        look_at_settings(asked, settings, service, clock, log, loop, take);
-        return ends;
-    });
+    run_frames(loop, stop, {settings, service, clock, world, painter, log}, !options.replay_path.empty());
     const std::int64_t cpu_ns = clock.processor_ns() - cpu_before_ns;
-    service.stopping();
     if (images) images->finish();
     outside.finish();
     tell_ends(log, outside, painter.description());

@@ -24,6 +24,8 @@ class GlPainter final : public Painter {
     void draw_clouds();
     /// What frames may be off by from the next one on, which takes as long as a start: all is made anew.
     void take_quality(const render::Quality& quality) noexcept;
+    /// The same of patterns, texts and resampling, now and after each reset.
+    void make_ready();
     void thin(render::Thinned thinned) override { thinned_ = thinned; }
     [[nodiscard]] render::Thinned thinnable() const override { return thinnable_; }
     /// The first call may throw; later it does not: what cannot be had of the device is as its loss. After a
@@ -76,6 +78,7 @@ class GlPainter final : public Painter {
     std::vector<ChannelGuard> guards_;
     std::vector<int> errors_to_make_;
     bool clouds_wanted_ = false;
+    bool ready_wanted_ = false;
     bool draws_clouds_ = false;
     bool has_prepared_ = false;
     std::uint64_t errors_ = 0;
