@@ -36,14 +36,16 @@ void require_size(TableReader& table) {
 void read_drawing(TableReader& own, int width_px, int height_px, Channel& channel) {
     constexpr std::array<std::string_view, 2> kDrawings{"direct", "resampled"};
     own.choice("draw", channel.warp_drawing, kDrawings);
-    if (channel.warp_drawing == WarpDrawing::kResampled) {
-        own.number("render_scale", channel.render_scale, {0.25, 4.0, {}});
-    } else if (const Value* scale = own.any("render_scale"); scale != nullptr) {
-        own.error(*scale, "render_scale",
-                  "is of pictures that are resampled: write draw = \"resampled\" beside it, or leave it out "
-                  "(what is drawn directly has the screen's own pixels)");
+    if (channel.warp_drawing == WarpDrawing::kDirect) {
+        if (const Value* scale = own.any("render_scale"); scale != nullptr) {
+            own.error(
+                *scale, "render_scale",
+                "is of pictures that are resampled: write draw = \"resampled\" beside it, or leave it out "
+                "(what is drawn directly has the screen's own pixels)");
+        }
         return;
     }
+    const Value* scale = own.number("render_scale", channel.render_scale, {0.25, 4.0, {}});
     const int side_px = std::max(width_px, height_px);
     if (scale != nullptr && std::lround(channel.render_scale * side_px) > kMaxChannelSize_px) {
         own.error(

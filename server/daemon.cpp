@@ -207,6 +207,10 @@ std::string record_path(const DaemonOptions& options, const config::Config& conf
     return path.replace(at, config::kRecordTimeMark.size(), time);
 }
 
+std::unique_ptr<FrameTable> open_table(const std::string& path, const config::Config& config) {
+    return path.empty() ? nullptr : std::make_unique<FrameTable>(path, config.channels);
+}
+
 std::ofstream open_events(const std::string& path) {
     std::ofstream file;
     if (path.empty()) return file;
@@ -360,9 +364,7 @@ void run(const DaemonOptions& options, const config::Config& start, const config
     const std::unique_ptr<ImageWriter> images = open_images(options, config);
     const std::unique_ptr<FrameHashes> hashes =
         options.hashes_path.empty() ? nullptr : std::make_unique<FrameHashes>(options.hashes_path);
-    const std::unique_ptr<FrameTable> table =
-        options.times_path.empty() ? nullptr
-                                   : std::make_unique<FrameTable>(options.times_path, config.channels);
+    const std::unique_ptr<FrameTable> table = open_table(options.times_path, config);
     const std::unique_ptr<GlPainter> made = make_painter(options, config);
     GlPainter& painter = *made;
     painter.draw_clouds();
