@@ -141,6 +141,13 @@ struct Record {
 
 inline constexpr std::string_view kRecordTimeMark = "{time}";
 
+/// What of the log is written: this and all that is graver.
+enum class LogLevel { kError, kWarning, kNotice, kInfo };
+
+struct Logging {
+    LogLevel level = LogLevel::kInfo;
+};
+
 /// The read-only port that tells how the daemon goes.
 struct Status {
     bool enabled = true;
@@ -184,6 +191,7 @@ struct Config {
     /// At most kMaxWindows; with OutputKind::kWindow one at least.
     std::vector<Window> windows;
     Record record;
+    Logging log;
     Status status;
     Preview preview;
     /// 1..kMaxChannels

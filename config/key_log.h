@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "config/config.h"
+#include "config/document.h"
 
 namespace skyig::config {
 
@@ -26,6 +26,8 @@ struct KeyUse {
     /// As TOML. Nothing: not given, and there is no default.
     std::optional<std::string> value;
     bool given = false;
+    /// Of the value, where it is given.
+    Place place;
     bool required = false;
 
     [[nodiscard]] bool is_value() const noexcept { return !range.empty(); }

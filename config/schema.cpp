@@ -12,6 +12,7 @@ namespace {
 constexpr std::array<std::string_view, 3> kModelNames{"almanac", "erfa", "series"};
 constexpr std::array<std::string_view, 2> kSurfaceNames{"land", "sea"};
 constexpr std::array<std::string_view, 2> kOutputNames{"headless", "window"};
+constexpr std::array<std::string_view, 4> kLevelNames{"error", "warning", "notice", "info"};
 
 void read_utc(TableReader& table, std::optional<UtcDateTime>& utc) {
     const Value* value = table.any("utc");
@@ -91,6 +92,11 @@ void read_record(TableReader table, Record& record) {
     table.finish();
 }
 
+void read_log(TableReader table, Logging& log) {
+    table.choice("level", log.level, kLevelNames);
+    table.finish();
+}
+
 void read_preview(TableReader table, Preview& preview) {
     table.boolean("enabled", preview.enabled);
     table.number("rate_hz", preview.rate_hz, {0.1, 30.0, "Hz"});
@@ -154,6 +160,7 @@ Config read_config(const Table& document, ErrorList& errors) {
     overlay.finish();
     read_output(root.table("output"), config.output);
     read_record(root.table("record"), config.record);
+    read_log(root.table("log"), config.log);
     TableReader status = root.table("status");
     read_status(status, config.status);
     read_preview(root.table("preview"), config.preview);

@@ -96,7 +96,11 @@ void TableReader::error(const Value& at, std::string_view key, std::string messa
 const Value* TableReader::any(std::string_view key) {
     known_.push_back(key);
     const Value* value = table_ == nullptr ? nullptr : table_->find(key);
-    if (KeyLog* keys = errors_.keys(); keys != nullptr) keys->at(path_, key).given = value != nullptr;
+    if (KeyLog* keys = errors_.keys(); keys != nullptr) {
+        KeyUse& use = keys->at(path_, key);
+        use.given = value != nullptr;
+        if (value != nullptr) use.place = value->place;
+    }
     return value;
 }
 

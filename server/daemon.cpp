@@ -22,6 +22,7 @@
 #include "server/from_config.h"
 #include "server/gl_painter.h"
 #include "server/light_files.h"
+#include "server/live_settings.h"
 #include "server/live_wire.h"
 #include "server/log.h"
 #include "server/pace.h"
@@ -206,6 +207,10 @@ std::string record_path(const DaemonOptions& options, const config::Config& conf
     return path.replace(at, config::kRecordTimeMark.size(), time);
 }
 
+std::unique_ptr<FrameTable> open_table(const std::string& path, const config::Config& config) {
+    return path.empty() ? nullptr : std::make_unique<FrameTable>(path, config.channels);
+}
+
 std::ofstream open_events(const std::string& path) {
     std::ofstream file;
     if (path.empty()) return file;
@@ -290,15 +295,65 @@ std::unique_ptr<GlPainter> make_painter(const DaemonOptions& options, const conf
     return std::make_unique<GlPainter>(std::move(settings));
 }
 
-void run(const DaemonOptions& options, const config::Config& config,
+/// The log's numbers of syslog for the settings' names.
+Severity severity_of(config::LogLevel level) noexcept {
+    return static_cast<Severity>(static_cast<int>(Severity::kError) + static_cast<int>(level));
+}
+
+/// Who takes new settings, and who hears of it.
+struct Reload {
+    LiveSettings& settings;
+    service::ServiceManager& service;
+    const Clock& clock;
+    world::World& world;
+    GlPainter& painter;
+    Log& log;
+
+    /// Takes what can change while frames go on.
+    void take(const config::Config& before) const {
+        const config::Config& now = settings.config();
+        world.take_settings();
+        log.set_threshold(severity_of(now.log.level));
+        if (quality(before).error_codes != quality(now).error_codes) painter.take_quality(quality(now));
+    }
+
+    /// Once a frame: reads settings anew when that is asked for, and takes them when they have been read.
+    void look(bool asked, FrameLoop& loop) const {
+        if (asked) {
+            service.reloading(clock.monotonic_ns());
+            settings.read_anew();
+        }
+        const LiveSettings::Result result =
+            settings.take([this](const config::Config& before) { take(before); }, log);
+        if (result == LiveSettings::Result::kNone) return;
+        const bool taken = result == LiveSettings::Result::kTaken;
+        loop.note_settings(taken);
+        service.ready(taken ? "settings taken" : "settings refused");
+    }
+};
+
+/// A replay is the same each time: it listens to no new settings.
+void run_frames(FrameLoop& loop, StopSignal& stop, const Reload& reload, bool replays) {
+    loop.run([&] {
+        const bool ends = stop.requested();
+        reload.look(stop.reload_requested() && !replays, loop);
+        return ends;
+    });
+    reload.service.stopping();
+}
+
+void run(const DaemonOptions& options, const config::Config& start, const config::KeyLog& keys,
          ephemeris::EarthOrientation orientation) {
-    StopSignal stop;
+    StopSignal stop(true);
     SystemClock clock;
+    LiveSettings settings(options.config_path, start, keys);
+    const config::Config& config = settings.config();
     service::ServiceManager service = service::ServiceManager::from_environment();
     ManualClock replay_clock;
     std::ofstream events = open_events(options.events_path);
     const FrameLoop* running = nullptr;
-    Log log(options.replay_path.empty() ? static_cast<const Clock&>(clock) : replay_clock);
+    Log log(options.replay_path.empty() ? static_cast<const Clock&>(clock) : replay_clock,
+            severity_of(config.log.level), options.log_json ? Log::Form::kJson : Log::Form::kText);
     log.also_to([&events, &running](Severity, std::string_view line) {
         if (events.is_open())
             events << (running == nullptr ? 0 : running->frame_number()) << ' ' << line << '\n';
@@ -309,9 +364,7 @@ void run(const DaemonOptions& options, const config::Config& config,
     const std::unique_ptr<ImageWriter> images = open_images(options, config);
     const std::unique_ptr<FrameHashes> hashes =
         options.hashes_path.empty() ? nullptr : std::make_unique<FrameHashes>(options.hashes_path);
-    const std::unique_ptr<FrameTable> table =
-        options.times_path.empty() ? nullptr
-                                   : std::make_unique<FrameTable>(options.times_path, config.channels);
+    const std::unique_ptr<FrameTable> table = open_table(options.times_path, config);
     const std::unique_ptr<GlPainter> made = make_painter(options, config);
     GlPainter& painter = *made;
     painter.draw_clouds();
@@ -337,9 +390,8 @@ void run(const DaemonOptions& options, const config::Config& config,
     running = &loop;
     service.ready(outside.heard(options, config));
     const std::int64_t cpu_before_ns = clock.processor_ns();
-    loop.run([&stop] { return stop.requested(); });
+    run_frames(loop, stop, {settings, service, clock, world, painter, log}, !options.replay_path.empty());
     const std::int64_t cpu_ns = clock.processor_ns() - cpu_before_ns;
-    service.stopping();
     if (images) images->finish();
     outside.finish();
     tell_ends(log, outside, painter.description());
@@ -354,12 +406,12 @@ void run(const DaemonOptions& options, const config::Config& config,
 
 }  // namespace
 
-int run_daemon(const DaemonOptions& options, const config::Config& config,
+int run_daemon(const DaemonOptions& options, const config::Config& config, const config::KeyLog& keys,
                ephemeris::EarthOrientation orientation) {
     // Who reads our lines may go at any time: that is a failed write, not our end.
     std::signal(SIGPIPE, SIG_IGN);
     try {
-        run(options, config, std::move(orientation));
+        run(options, config, keys, std::move(orientation));
         return 0;
     } catch (const std::exception& error) {
         fmt::print(stderr, "skyigd: {}\n", error.what());

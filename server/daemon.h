@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "config/config.h"
+#include "config/key_log.h"
 #include "server/ephemeris/earth_orientation.h"
 
 namespace skyig::server {
@@ -45,15 +46,18 @@ struct DaemonOptions {
     std::string hashes_path;
     /// File for one line of CSV a frame with its times; empty = none.
     std::string times_path;
+    /// The log's lines on stderr are objects of JSON.
+    bool log_json = false;
     /// File for the log's lines with the frames that they came in; empty = none.
     std::string events_path;
 };
 
 /// Runs until the frames asked for are done or SIGINT or SIGTERM comes; then tells the report on stdout.
+/// \param keys  those of the settings, to tell later settings from
 /// \param orientation  what load_earth_orientation() gives
 /// \return the exit status: 0, or 1 after one line on stderr when something the work needs is missing (a
 /// port, a display, a directory)
 [[nodiscard]] int run_daemon(const DaemonOptions& options, const config::Config& config,
-                             ephemeris::EarthOrientation orientation = {});
+                             const config::KeyLog& keys, ephemeris::EarthOrientation orientation = {});
 
 }  // namespace skyig::server

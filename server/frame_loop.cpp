@@ -109,6 +109,11 @@ bool FrameLoop::run_frame() {
     return wanted;
 }
 
+void FrameLoop::note_settings(bool taken) noexcept {
+    ++(taken ? settings_.times_taken : settings_.times_refused);
+    if (taken) settings_.last_taken_utc_ns = parts_.clock.utc_ns();
+}
+
 void FrameLoop::thin(const FramePacer::Slot& slot) {
     const render::Thinned wanted = overload_ ? overload_->thinned() : render::Thinned(slot.thinned);
     if (wanted != thinned_) parts_.painter.thin(wanted);

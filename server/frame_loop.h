@@ -77,6 +77,9 @@ class FrameLoop {
     /// Of the frame at hand or the last.
     [[nodiscard]] std::uint64_t frame_number() const noexcept { return frame_number_; }
 
+    /// The settings have been read anew, and taken or refused.
+    void note_settings(bool taken) noexcept;
+
     /// Everything counted so far; the images' counts are final once the writer has finished.
     [[nodiscard]] RunReport report() const;
     /// What of the status stays in a run; start and addresses are the caller's to add.
@@ -147,6 +150,7 @@ class FrameLoop {
     };
     Watched watched_;
     std::vector<std::byte> read_back_;
+    status::SettingsState settings_;
     /// Channels of which it has been said that they cannot be drawn.
     std::bitset<config::kMaxChannels> told_failed_;
     /// That their monitors are gone.

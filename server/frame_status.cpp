@@ -59,7 +59,7 @@ status::Facts FrameLoop::facts() const {
     for (const config::Channel& channel : config_.channels)
         facts.channels.push_back(channel.name);
     for (const world::SourceRule& rule : world::source_rules(config_))
-        facts.sources.push_back({rule.name, rule.kind, rule.rights, {}});
+        facts.sources.push_back({rule.name, rule.kind, {}});
     facts.elevation_m = config_.weather.elevation_m;
     facts.transition_s = config_.weather.transition_s;
     facts.ephemeris = ephemeris::name_of(ephemeris_model(config_));
@@ -109,6 +109,7 @@ void FrameLoop::take_stock(status::Snapshot& snapshot) const {
     snapshot.start_of_frame_failed = start_of_frame_failed_;
     snapshot.gl_errors = parts_.painter.gl_errors();
     snapshot.gl_resets = parts_.painter.resets();
+    snapshot.settings = settings_;
     if (parts_.images != nullptr) {
         const ImageWriter::Counts images = parts_.images->counts();
         snapshot.images_written = images.written;
@@ -169,6 +170,7 @@ void FrameLoop::take_stock_of_sources(status::Snapshot& snapshot) const {
     }
     for (std::size_t source = 0; source < authority.size(); ++source) {
         snapshot.sources[source].link = world.link(source);
+        snapshot.sources[source].rights = authority.rule(source).rights;
         snapshot.sources[source].arrivals = inbox_.arrivals(source);
         if (const BusInput* bus = inbox_.bus(source))
             snapshot.canaerospace[source] = bus->receiver().counters();

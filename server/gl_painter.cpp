@@ -35,6 +35,13 @@ void GlPainter::leave_lost_device() noexcept {
     frames_to_retry_ = 0;
 }
 
+void GlPainter::take_quality(const render::Quality& quality) noexcept {
+    settings_.quality = quality;
+    if (!seat_) return;
+    leave_lost_device();
+    --resets_;
+}
+
 void GlPainter::draw_clouds() {
     clouds_wanted_ = true;
     if (draws_clouds_ || !seat_) return;

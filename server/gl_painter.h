@@ -24,6 +24,8 @@ class GlPainter final : public Painter {
     void draw_clouds();
     /// The same of patterns, texts and resampling, now and after each reset.
     void make_ready();
+    /// What frames may be off by from the next one on, which takes as long as a start: all is made anew.
+    void take_quality(const render::Quality& quality) noexcept;
     void thin(render::Thinned thinned) override { thinned_ = thinned; }
     [[nodiscard]] render::Thinned thinnable() const override { return thinnable_; }
     /// The first call may throw; later it does not: what cannot be had of the device is as its loss. After a

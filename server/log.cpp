@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <iterator>
 #include <utility>
 
@@ -24,10 +25,58 @@ void write_all(int descriptor, std::string_view text) noexcept {
     }
 }
 
+std::string_view level_name(Severity severity) noexcept {
+    switch (severity) {
+        case Severity::kError:
+            return "error";
+        case Severity::kWarning:
+            return "warning";
+        case Severity::kNotice:
+            return "notice";
+        case Severity::kInfo:
+            return "info";
+        case Severity::kDebug:
+            break;
+    }
+    return "debug";
+}
+
+/// "2026-06-21T12:00:00.123Z"
+void append_utc(std::int64_t utc_ns, fmt::memory_buffer& out) {
+    using namespace std::chrono;
+    const auto time = floor<milliseconds>(sys_time<nanoseconds>(nanoseconds(utc_ns)));
+    const auto day = floor<days>(time);
+    const year_month_day date(day);
+    const hh_mm_ss clock(time - day);
+    fmt::format_to(std::back_inserter(out), "{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z",
+                   static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                   static_cast<unsigned>(date.day()), clock.hours().count(), clock.minutes().count(),
+                   clock.seconds().count(), clock.subseconds().count());
+}
+
+void append_json(std::int64_t utc_ns, Severity severity, std::string_view line, fmt::memory_buffer& out) {
+    fmt::format_to(std::back_inserter(out), "{{\"time\":\"");
+    append_utc(utc_ns, out);
+    fmt::format_to(std::back_inserter(out), "\",\"level\":\"{}\",\"source\":\"skyigd\",\"text\":\"",
+                   level_name(severity));
+    for (const char c : line) {
+        const auto code = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\') {
+            out.push_back('\\');
+            out.push_back(c);
+        } else if (code < 0x20) {
+            fmt::format_to(std::back_inserter(out), "\\u{:04x}", code);
+        } else {
+            out.push_back(c);
+        }
+    }
+    fmt::format_to(std::back_inserter(out), "\"}}");
+}
+
 }  // namespace
 
-Log::Log(const Clock& clock, Severity threshold)
-    : clock_(clock), threshold_(threshold), prefix_(::isatty(STDERR_FILENO) == 0) {}
+Log::Log(const Clock& clock, Severity threshold, Form form)
+    : clock_(clock), threshold_(threshold), prefix_(::isatty(STDERR_FILENO) == 0), form_(form) {}
 
 Log::Log(const Clock& clock, Sink sink, Severity threshold)
     : clock_(clock), threshold_(threshold), sink_(std::move(sink)) {}
@@ -78,8 +127,12 @@ void Log::emit(Severity severity, std::string_view line) {
         return;
     }
     fmt::memory_buffer whole;
-    if (prefix_) fmt::format_to(std::back_inserter(whole), "<{}>", static_cast<int>(severity));
-    whole.append(line.data(), line.data() + line.size());
+    if (form_ == Form::kJson) {
+        append_json(clock_.utc_ns(), severity, line, whole);
+    } else {
+        if (prefix_) fmt::format_to(std::back_inserter(whole), "<{}>", static_cast<int>(severity));
+        whole.append(line.data(), line.data() + line.size());
+    }
     whole.push_back('\n');
     write_all(STDERR_FILENO, {whole.data(), whole.size()});
 }

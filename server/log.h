@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -41,10 +42,16 @@ class Log {
     /// Receives whole lines without prefix and line end.
     using Sink = std::function<void(Severity, std::string_view)>;
 
+    /// How lines stand on stderr: with journald's <N> unless it is a terminal, or each an object of JSON.
+    enum class Form { kText, kJson };
+
     /// Writes to stderr. `clock` must outlive the log; it measures the limits of repeated lines.
-    explicit Log(const Clock& clock, Severity threshold = Severity::kInfo);
+    explicit Log(const Clock& clock, Severity threshold = Severity::kInfo, Form form = Form::kText);
     /// Writes to `sink` (tests).
     Log(const Clock& clock, Sink sink, Severity threshold = Severity::kDebug);
+
+    /// From now on lines up to this one are written.
+    void set_threshold(Severity threshold) noexcept { threshold_ = threshold; }
 
     /// A second reader of every line; to be set before other threads write.
     void also_to(Sink sink) { also_ = std::move(sink); }
@@ -91,10 +98,11 @@ class Log {
     Limit& find_limit(const LimitKey& key, std::int64_t now_ns, bool& first);
 
     const Clock& clock_;
-    Severity threshold_;
+    std::atomic<Severity> threshold_;
     Sink sink_;
     Sink also_;
     bool prefix_ = false;
+    Form form_ = Form::kText;
     std::mutex mutex_;
     std::array<Limit, kMaxKeys> limits_{};
     std::size_t limit_count_ = 0;

@@ -71,6 +71,7 @@ void declare(CLI::App& app, DaemonOptions& options) {
         ->type_name("FILE");
     app.add_option("--events", options.events_path, "write the log here too, each line with its frame")
         ->type_name("FILE");
+    app.add_flag("--log-json", options.log_json, "the log on stderr as JSON, an object a line");
     app.set_version_flag("--version", std::string("skyigd " SKYIG_VERSION));
     app.footer("Exit status: 0 done, 1 the work failed, 2 wrong usage or settings.");
 }
@@ -100,8 +101,7 @@ int run(int argc, char** argv) {
     if (!options) return exit_status;
 
     skyig::config::KeyLog keys;
-    skyig::config::LoadResult loaded =
-        skyig::config::load_config(options->config_path, options->print_config ? &keys : nullptr);
+    skyig::config::LoadResult loaded = skyig::config::load_config(options->config_path, &keys);
     for (const skyig::config::ConfigError& error : loaded.errors)
         fmt::print(stderr, "{}\n", skyig::config::to_text(error));
     if (!loaded.config) return kWrongUsage;
@@ -134,7 +134,7 @@ int run(int argc, char** argv) {
         fmt::print("{}\n", skyig::config::describe(*loaded.config));
         return kDone;
     }
-    return skyig::server::run_daemon(*options, *loaded.config, std::move(*orientation.orientation));
+    return skyig::server::run_daemon(*options, *loaded.config, keys, std::move(*orientation.orientation));
 }
 
 }  // namespace

@@ -9,11 +9,12 @@
 
 namespace skyig::server {
 
-StopSignal::StopSignal() {
+StopSignal::StopSignal(bool reloads) {
     sigset_t signals;
     sigemptyset(&signals);
     sigaddset(&signals, SIGINT);
     sigaddset(&signals, SIGTERM);
+    if (reloads) sigaddset(&signals, SIGHUP);
     const int blocked = pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     if (blocked != 0)
         throw std::runtime_error(std::string("cannot block signals: ") + std::strerror(blocked));
@@ -28,9 +29,14 @@ StopSignal::~StopSignal() {
 }
 
 bool StopSignal::requested() noexcept {
-    if (requested_) return true;
     signalfd_siginfo signal{};
-    requested_ = read(descriptor_, &signal, sizeof(signal)) == static_cast<ssize_t>(sizeof(signal));
+    while (!requested_ &&
+           read(descriptor_, &signal, sizeof(signal)) == static_cast<ssize_t>(sizeof(signal))) {
+        if (signal.ssi_signo == SIGHUP)
+            reload_ = true;
+        else
+            requested_ = true;
+    }
     return requested_;
 }
 

@@ -6,7 +6,7 @@
 namespace skyig::config::reference {
 namespace {
 
-constexpr std::array kMeanings{
+constexpr std::array kSiteMeanings{
     Meaning{"", "version", "of the layout of the file", {}, "1"},
     Meaning{"daemon", "rate_hz",
             "frames, and Start of Frame messages, a second; with `pace = \"display\"` the display's rate"},
@@ -112,6 +112,7 @@ constexpr std::array kMeanings{
             "run writes over the last",
             {},
             "path"},
+    Meaning{"log", "level", "of [the log](operations.md#the-log): lines of this kind and graver ones"},
     Meaning{"status", "enabled",
             "whether there is a [port to watch the daemon by](operations.md#watching-a-running-daemon)"},
     Meaning{"status", "listen",
@@ -212,7 +213,7 @@ constexpr std::array kMeanings{
 }  // namespace
 
 std::span<const Meaning> meanings_of_site() noexcept {
-    return kMeanings;
+    return kSiteMeanings;
 }
 
 }  // namespace skyig::config::reference

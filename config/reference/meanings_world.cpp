@@ -6,7 +6,7 @@
 namespace skyig::config::reference {
 namespace {
 
-constexpr std::array kMeanings{
+constexpr std::array kWorldMeanings{
     Meaning{"start", "utc", "`2026-06-21T19:00:00Z`, with Z; in quotes the seconds may be left out"},
     Meaning{"start", "running", "whether the clock runs by itself"},
     Meaning{"start", "latitude_deg", "WGS84, north positive"},
@@ -206,7 +206,7 @@ constexpr std::array kMeanings{
 }  // namespace
 
 std::span<const Meaning> meanings_of_world() noexcept {
-    return kMeanings;
+    return kWorldMeanings;
 }
 
 }  // namespace skyig::config::reference

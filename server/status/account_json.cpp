@@ -17,6 +17,17 @@ Json recent_json(const RecentFrames& recent) {
             {"median_ms", recent.median_ms}, {"p95_ms", recent.p95_ms}, {"largest_ms", recent.largest_ms}};
 }
 
+Json settings_json(const SettingsState& settings) {
+    constexpr std::int64_t kSecondNs = 1'000'000'000;
+    const std::int64_t taken_ns = settings.last_taken_utc_ns;
+    return {
+        {"times_taken", settings.times_taken},
+        {"times_refused", settings.times_refused},
+        {"last_taken_utc",
+         taken_ns == 0 ? Json(nullptr)
+                       : Json(ephemeris::to_iso(ephemeris::UtcClockTime::from_unix(taken_ns / kSecondNs)))}};
+}
+
 Json overload_json(const Account& account) {
     const Thinning& thinning = account.snapshot.thinning;
     return {{"order", account.facts.thinning_order},   {"thinned", account.report.thinned},
@@ -106,8 +117,8 @@ Json source_json(const Account& account, std::size_t index) {
             {"silent_s", heard ? Json(state.link.silent_s) : Json(nullptr)},
             {"losses", state.link.losses},
             {"arrivals", state.arrivals},
-            {"priority", facts.rights.priority},
-            {"owns", aspects_json([&facts](std::size_t aspect) { return facts.rights.owns.test(aspect); })},
+            {"priority", state.rights.priority},
+            {"owns", aspects_json([&state](std::size_t aspect) { return state.rights.owns.test(aspect); })},
             {"holds", aspects_json([&account, index](std::size_t aspect) {
                  return account.snapshot.aspects[aspect].holder == index;
              })},
@@ -126,9 +137,9 @@ Json authority_json(const Account& account) {
         }
         json[std::string(config::kAspectNames[aspect])] = {
             {"holder", state.holder ? Json(account.facts.sources[*state.holder].name) : Json(nullptr)},
-            {"rule", state.holder
-                         ? Json(hold_rule(account.facts, static_cast<config::Aspect>(aspect), state.reason))
-                         : Json(nullptr)},
+            {"rule", state.holder ? Json(hold_rule(account.facts, account.snapshot,
+                                                   static_cast<config::Aspect>(aspect), state.reason))
+                                  : Json(nullptr)},
             {"overruled", overruled}};
     }
     return json;
@@ -174,6 +185,7 @@ std::string to_json(const Account& account) {
     json["age_s"] = account.age_s;
     json["health"] = {{"ok", account.health.good}, {"text", account.health.text}};
     json["recent"] = recent_json(account.snapshot.record.recent());
+    json["settings"] = settings_json(account.snapshot.settings);
     json["pace"] = account.facts.pace;
     json["overload"] = overload_json(account);
     json["world"] = world_json(account.facts, account.snapshot.world);

@@ -147,7 +147,7 @@ void add_authority(MetricsText& out, const Account& account) {
     const auto each = [&](auto value) {
         for (std::size_t i = 0; i < sources.size(); ++i) {
             for (std::size_t aspect = 0; aspect < config::kAspectCount; ++aspect) {
-                if (!sources[i].rights.owns.test(aspect)) continue;
+                if (!account.snapshot.sources[i].rights.owns.test(aspect)) continue;
                 out.sample({{"source", sources[i].name}, {"aspect", config::kAspectNames[aspect]}},
                            value(i, aspect));
             }

@@ -71,11 +71,14 @@ void add_counts(const Snapshot& snapshot, RunReport& report) {
 
 }  // namespace
 
-std::string_view hold_rule(const Facts& facts, config::Aspect aspect, world::HoldReason reason) noexcept {
+std::string_view hold_rule(const Facts& facts, const Snapshot& snapshot, config::Aspect aspect,
+                           world::HoldReason reason) noexcept {
     const auto owners =
-        std::count_if(facts.sources.begin(), facts.sources.end(), [aspect](const SourceFacts& source) {
-            return source.rights.owns.test(static_cast<std::size_t>(aspect));
-        });
+        std::count_if(snapshot.sources.begin(),
+                      snapshot.sources.begin() + static_cast<std::ptrdiff_t>(facts.sources.size()),
+                      [aspect](const SourceState& source) {
+                          return source.rights.owns.test(static_cast<std::size_t>(aspect));
+                      });
     return owners < 2 ? "only_owner" : world::kHoldReasonNames[static_cast<std::size_t>(reason)];
 }
 

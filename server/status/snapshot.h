@@ -63,6 +63,7 @@ struct FlightGearCounts {
 
 struct SourceState {
     world::Link link;
+    config::Rights rights;
     /// Datagrams or CAN frames that it has sent.
     std::uint64_t arrivals = 0;
     /// How often it spoke of an aspect that is its to speak of while another held it.
@@ -98,6 +99,14 @@ struct WorldState {
     double adaptation_cd_m2 = 0.0;
 };
 
+/// How often the settings were read anew while the daemon ran.
+struct SettingsState {
+    std::uint64_t times_taken = 0;
+    std::uint64_t times_refused = 0;
+    /// 0: they are those of the start.
+    std::int64_t last_taken_utc_ns = 0;
+};
+
 struct Snapshot {
     /// Frames begun; 0: nothing has been drawn yet.
     std::uint64_t frames = 0;
@@ -125,6 +134,7 @@ struct Snapshot {
     std::uint64_t host_timeouts = 0;
     Thinning thinning;
     std::size_t gl_objects = 0;
+    SettingsState settings;
 
     WorldState world;
     std::array<PassState, kMostPasses> passes{};
@@ -162,7 +172,6 @@ static_assert(std::is_trivially_copyable_v<Snapshot>, "a copy of it must not all
 struct SourceFacts {
     std::string name;
     config::SourceKind kind = config::SourceKind::kCigi;
-    config::Rights rights;
     /// "127.0.0.1:8004", "can0"; empty where nothing is listened to.
     std::string heard_at;
 };
@@ -193,7 +202,7 @@ struct Facts {
 
 /// By which rule a holder has an aspect: "only_owner" where the settings give it to nobody else, else one of
 /// world::kHoldReasonNames.
-[[nodiscard]] std::string_view hold_rule(const Facts& facts, config::Aspect aspect,
+[[nodiscard]] std::string_view hold_rule(const Facts& facts, const Snapshot& snapshot, config::Aspect aspect,
                                          world::HoldReason reason) noexcept;
 
 }  // namespace skyig::server::status

@@ -19,6 +19,13 @@ std::vector<SourceRule> source_rules(const config::Config& config) {
 
 Authority::Authority(std::vector<SourceRule> rules) : rules_(std::move(rules)), links_(rules_.size()) {}
 
+void Authority::take_rights(std::size_t source, const config::Rights& rights) noexcept {
+    rules_[source].rights = rights;
+    for (std::size_t aspect = 0; aspect < config::kAspectCount; ++aspect) {
+        if (holds_[aspect].source == source && !rights.owns.test(aspect)) holds_[aspect] = {};
+    }
+}
+
 std::optional<LinkChange> Authority::heard(std::size_t source) noexcept {
     LinkAge& link = links_[source];
     const LinkState before = std::exchange(link.state, LinkState::kLive);

@@ -55,6 +55,9 @@ class Authority {
     /// The source speaks of the aspect now. \return whether it is to be obeyed.
     [[nodiscard]] bool claim(std::size_t source, config::Aspect aspect) noexcept;
 
+    /// The source's rights from now on; what it holds without a right to it nobody holds any more.
+    void take_rights(std::size_t source, const config::Rights& rights) noexcept;
+
     /// Moves time on by `step_s` >= 0; `tell(const LinkChange&)` hears of sources that fell silent.
     template <class Tell>
     void advance(double step_s, Tell&& tell) {

@@ -218,6 +218,14 @@ void World::reset() {
     ++resets_;
 }
 
+void World::take_settings() {
+    start_weather_ = server::start_weather(config_);
+    const std::vector<SourceRule> rules = source_rules(config_);
+    for (std::size_t source = 0; source < rules.size(); ++source)
+        authority_.take_rights(source, rules[source].rights);
+    if (!authority_.holder(config::Aspect::kWeather)) set_start_weather();
+}
+
 void World::set_start_weather() noexcept {
     air_ = configured_air(start_weather_.air);
     weather_.clear();

@@ -75,6 +75,10 @@ class World {
     void report(std::size_t source, const protocol::cigi::WeatherControl& layer);
     void report_time(std::size_t source, const ephemeris::UtcClockTime& utc, bool running);
 
+    /// The settings have changed: sources' rights hold from now on, start air and weather from the next
+    /// Standby, or now where nobody has the say about weather. Allocates.
+    void take_settings();
+
     /// Moves time on by `step_s` >= 0: clock, link supervision.
     void advance(double step_s);
 

@@ -13,6 +13,8 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,6 +30,7 @@ using protocol::transport::FileDescriptor;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 using ::testing::HasSubstr;
+using Json = nlohmann::json;
 
 /// The manager's end of NOTIFY_SOCKET.
 class Manager {
@@ -120,6 +123,93 @@ TEST(Service, AStuckFrameLoopStopsTheWatchdogAndNothingElseDoes) {
     std::array<char, 8192> emptied{};
     EXPECT_GT(::read(pipe.get(), emptied.data(), emptied.size()), 0);
     EXPECT_TRUE(service.manager.hears("WATCHDOG=1", kWatchdog));
+}
+
+Json status_of(const Process& daemon) {
+    const Finished told = run({SKYIG_PROGRAM, "status", "--json", "--url", status_url(daemon)});
+    EXPECT_EQ(told.status, 0) << told.err;
+    return Json::parse(told.out);
+}
+
+/// The site's settings with one text in place of another.
+void rewrite(const Site& site, const std::string& from, const std::string& to) {
+    std::string settings = read_text(site.config_path);
+    const std::size_t at = settings.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    (void)site.scratch.write("site.toml", settings.replace(at, from.size(), to));
+}
+
+TEST(Service, TakesWhatCanChangeLiveAndSaysWhatCannot) {
+    const Service service;
+    Process daemon(service.command(), service.environment("0"));
+    ASSERT_TRUE(service.manager.hears("READY=1"));
+    rewrite(service.site, "version = 1\n", "version = 1\nair.visibility_m = 5000\n");
+    rewrite(service.site, "yaw_deg = 0", "yaw_deg = 20");
+    daemon.signal(SIGHUP);
+    EXPECT_TRUE(service.manager.hears("RELOADING=1\nMONOTONIC_USEC="));
+    EXPECT_TRUE(service.manager.hears("READY=1\nSTATUS=settings taken"));
+    ASSERT_TRUE(daemon.wait_for_err("settings read anew: air.visibility_m\n"));
+    ASSERT_TRUE(daemon.wait_for_err(": channel[1].yaw_deg: is taken at the next start only\n"));
+    EXPECT_THAT(daemon.err_so_far(), HasSubstr("/site.toml:17:11: channel[1]."));
+    Json status = status_of(daemon);
+    for (int i = 0; i < 50 && status["settings"]["times_taken"] != 1; ++i)
+        status = status_of(daemon);
+    EXPECT_EQ(status["settings"]["times_taken"], 1);
+    EXPECT_TRUE(status["settings"]["last_taken_utc"].is_string());
+    EXPECT_EQ(status["world"]["air"]["visibility_m"], 5000.0);
+}
+
+TEST(Service, RefusesABrokenFileWholeAndGoesOn) {
+    const Service service;
+    Process daemon(service.command(), service.environment("0"));
+    ASSERT_TRUE(service.manager.hears("READY=1"));
+    rewrite(service.site, "version = 1\n", "version = 1\nair.visibility_m = 5000\nair.wind_m_s = 900\n");
+    daemon.signal(SIGHUP);
+    EXPECT_TRUE(service.manager.hears("READY=1\nSTATUS=settings refused"));
+    ASSERT_TRUE(daemon.wait_for_err("settings not taken, those that held go on: "));
+    EXPECT_THAT(daemon.err_so_far(), HasSubstr("site.toml:3:16: air.wind_m_s: is 900; it must be 0..60 m/s"));
+    Json status = status_of(daemon);
+    for (int i = 0; i < 50 && status["settings"]["times_refused"] != 1; ++i)
+        status = status_of(daemon);
+    EXPECT_EQ(status["settings"]["times_refused"], 1);
+    EXPECT_TRUE(status["settings"]["last_taken_utc"].is_null());
+    EXPECT_EQ(status["world"]["air"]["visibility_m"], 80000.0);
+    daemon.signal(SIGTERM);
+    EXPECT_EQ(daemon.wait().status, 0);
+}
+
+TEST(Service, LogsAnObjectOfJsonALine) {
+    const Site site;
+    const Finished finished =
+        run({SKYIGD_PROGRAM, "--config", site.config_path, "--headless", "--frames", "2", "--log-json"});
+    std::istringstream lines(finished.err);
+    int count = 0;
+    for (std::string line; std::getline(lines, line); ++count) {
+        const Json object = Json::parse(line);
+        EXPECT_EQ(object.size(), 4U) << line;
+        EXPECT_EQ(object["level"], "info") << line;
+        EXPECT_EQ(object["source"], "skyigd");
+        EXPECT_EQ(object["time"].get<std::string>().size(), 24U) << line;
+        EXPECT_FALSE(object["text"].get<std::string>().empty());
+    }
+    EXPECT_GE(count, 3);
+}
+
+TEST(Service, AFullDiskCostsTheRecordingOnly) {
+    const Site site;
+    const Finished finished = run({SKYIGD_PROGRAM, "--config", site.config_path, "--headless", "--frames",
+                                   "40", "--record", "/dev/full", "--report", site.report_path});
+    EXPECT_EQ(finished.status, 0) << finished.err;
+    EXPECT_THAT(finished.err, HasSubstr("/dev/full: writing failed; the recording ends there"));
+    EXPECT_EQ(Json::parse(read_text(site.report_path))["frames"], 40);
+}
+
+TEST(Service, WhereNothingCanBeWrittenItDoesNotStart) {
+    const Site site;
+    const Finished finished = run({SKYIGD_PROGRAM, "--config", site.config_path, "--headless", "--frames",
+                                   "1", "--record", "/proc/sky.pcapng"});
+    EXPECT_EQ(finished.status, 1);
+    EXPECT_THAT(finished.err, HasSubstr("skyigd: /proc/sky.pcapng: "));
 }
 
 }  // namespace

@@ -128,6 +128,15 @@ TEST(Log, ThreadsDoNotMixTheirLines) {
         EXPECT_EQ(line, std::string(20, line.front()));
 }
 
+TEST(Log, TheThresholdMayChange) {
+    Kept kept;
+    kept.log.info("a");
+    kept.log.set_threshold(Severity::kWarning);
+    kept.log.info("b");
+    kept.log.warning("c");
+    EXPECT_THAT(kept.lines, ElementsAre("a", "c"));
+}
+
 TEST(Log, PrefixesThePriorityWhenNoTerminalListens) {
     std::array<int, 2> ends{};
     ASSERT_EQ(::pipe(ends.data()), 0);

@@ -23,10 +23,8 @@ inline Facts example_facts() {
     facts.sources[1].name = "cockpit";
     facts.sources[1].kind = config::SourceKind::kCanAerospace;
     facts.sources[1].heard_at = "can0";
-    facts.sources[1].rights.owns = config::Aspects{0b00110};
     facts.sources[2].name = "flightgear";
     facts.sources[2].kind = config::SourceKind::kFgNetFdm;
-    facts.sources[2].rights.owns = config::Aspects{0b00010};
     facts.ephemeris = "series";
     facts.started_ns = kStart;
     facts.started_utc = "2026-06-21T12:00:00Z";
@@ -56,6 +54,8 @@ inline Snapshot example_snapshot() {
     snapshot.sources[0].link = {world::LinkState::kLive, {0x7F000001, 8005}, 0.02, 1};
     snapshot.sources[0].arrivals = 599;
     snapshot.sources[1].link.state = world::LinkState::kStale;
+    snapshot.sources[1].rights.owns = config::Aspects{0b00110};
+    snapshot.sources[2].rights.owns = config::Aspects{0b00010};
     snapshot.sources[1].overruled[1] = 17;
     snapshot.aspects[0] = {0, world::HoldReason::kFirst};
     snapshot.aspects[1] = {0, world::HoldReason::kPriority};
