@@ -62,7 +62,7 @@ function(skyig_test_headers TARGET)
 endfunction()
 
 # script/setup and script/test compile the files of one target in batches: what their headers instantiate is compiled
-# once for all of them, which more than halves a build from nothing. Where it is: folders with heavy headers, and
+# once for all of them, and so a build from nothing is quicker. Where it is: folders with heavy headers, and
 # targets that call it themselves. Files that repeat names of others' unnamed namespaces are named to
 # skyig_compile_alone; a folder of such sets SKYIG_UNITY to OFF. Off by default, for work on single files.
 option(SKYIG_UNITY "Compile files in batches, for builds from nothing" OFF)
