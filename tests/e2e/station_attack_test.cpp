@@ -137,10 +137,13 @@ class Siege {
 
     void spend(Attack attack, double seconds) {
         Phase phase{attack, clock_.utc_ns(), 0};
-        const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+        const auto begin = std::chrono::steady_clock::now();
+        const auto end = begin + std::chrono::duration<double>(seconds);
+        texts_ = 0;
         std::vector<std::unique_ptr<Page>> attackers;
         while (std::chrono::steady_clock::now() < end) {
             EXPECT_TRUE(page_->read()) << "the page that behaves was ended: " << kNames[index(attack)];
+            due_ = (std::chrono::steady_clock::now() - begin) / std::chrono::milliseconds(1);
             strike(attack, attackers);
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
@@ -199,7 +202,8 @@ class Siege {
             case Attack::kThousandMessages: {
                 if (attackers.empty()) again(own_, kToken);
                 const std::string text = R"({"no":"such wish"})";
-                (void)attackers.back()->send(text_frame(text, text.size()));
+                for (; texts_ < due_; ++texts_)
+                    (void)attackers.back()->send(text_frame(text, text.size()));
                 break;
             }
             case Attack::kNeverReads:
@@ -219,6 +223,9 @@ class Siege {
     std::string own_;
     std::unique_ptr<Page> page_;
     std::vector<Phase> phases_;
+    /// Of a thousand texts a second in this phase: sent, and due by now.
+    std::int64_t texts_ = 0;
+    std::int64_t due_ = 0;
 };
 
 struct Pool {
