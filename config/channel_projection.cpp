@@ -32,7 +32,8 @@ void require_size(TableReader& table) {
     table.require("height_px", "the channel's height in pixels");
 }
 
-void read_drawing(TableReader& own, Channel& channel) {
+/// \param width_px, height_px  of the screen
+void read_drawing(TableReader& own, int width_px, int height_px, Channel& channel) {
     constexpr std::array<std::string_view, 2> kDrawings{"direct", "resampled"};
     own.choice("draw", channel.warp_drawing, kDrawings);
     if (channel.warp_drawing == WarpDrawing::kResampled) {
@@ -41,6 +42,15 @@ void read_drawing(TableReader& own, Channel& channel) {
         own.error(*scale, "render_scale",
                   "is of pictures that are resampled: write draw = \"resampled\" beside it, or leave it out "
                   "(what is drawn directly has the screen's own pixels)");
+        return;
+    }
+    const int side_px = std::max(width_px, height_px);
+    if (scale != nullptr && std::lround(channel.render_scale * side_px) > kMaxChannelSize_px) {
+        own.error(
+            *scale, "render_scale",
+            fmt::format("makes a side of {} pixels of {}; pictures have at most {}: write {:.4g} or less",
+                        std::lround(channel.render_scale * side_px), side_px, kMaxChannelSize_px,
+                        std::floor(1e3 * kMaxChannelSize_px / side_px) * 1e-3));
     }
 }
 
@@ -55,7 +65,7 @@ void read_warp(TableReader own, const std::string& settings_file, Channel& chann
     });
     own.require("mesh", "a PFM file of what each node of the screen shows");
     if (mesh) channel.warp = std::make_shared<warp::WarpMesh>(std::move(*mesh));
-    read_drawing(own, channel);
+    read_drawing(own, channel.width_px, channel.height_px, channel);
     own.finish();
 }
 
@@ -155,7 +165,7 @@ void read_mpcdi_table(TableReader& table, const std::string& settings_file, Chan
     auto read = file_at(own, "file", settings_file,
                         [&](warp::Bytes bytes) { return warp::read_mpcdi(std::move(bytes), region); });
     own.require("file", "an MPCDI file");
-    read_drawing(own, channel);
+    read_drawing(own, read ? read->width_px : 0, read ? read->height_px : 0, channel);
     own.finish();
     for (const std::string_view key : {"warp", "blend", "screen"}) {
         if (const Value* value = table.any(key); value != nullptr)

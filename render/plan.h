@@ -4,8 +4,10 @@
 #include <array>
 #include <bitset>
 #include <cstddef>
+#include <span>
 #include <string_view>
 
+#include "render/channel.h"
 #include "render/quality.h"
 #include "render/scene.h"
 #include "render/sky/refraction.h"
@@ -124,6 +126,9 @@ inline constexpr double kThinnedPrecipitation = 0.5;
 /// Decides how fine the dome is laid out: the smallest size that keeps to the budget, but no smaller than
 /// `held` while that is not clearly too fine. \param held  the dome in use
 [[nodiscard]] DomeSize plan_dome(const DomeBend& bend, const DomeSize& held, const Quality& quality) noexcept;
+
+/// Decides on what channels' screens need; make_plan() leaves it at a rig of flat screens without masks.
+void plan_screens(Plan& plan, std::span<const Channel> channels) noexcept;
 
 /// Decides on the veil of obscurants. \param segments  of fog::Veil
 void plan_veil(Plan& plan, const Scene& scene, std::size_t segments) noexcept;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "render/display.h"
 #include "render/eye/adaptation.h"
 #include "render/plan.h"
+#include "render/precipitation/exposure.h"
 #include "render/scene.h"
 #include "render/target.h"
 
@@ -50,6 +52,10 @@ class Renderer {
     /// From the next frame on the scene's weather has clouds.
     void draw_clouds(Clouds clouds);
 
+    /// Makes now what a view may want in a later frame, so that none is held up by it: the passes of patterns
+    /// and texts, and of channels that are resampled. What cannot be made is left to draw().
+    void make_ready() noexcept;
+
     /// What frames leave out from the next one on. \see render::thinnable()
     void thin(Thinned thinned) noexcept;
 
@@ -83,6 +89,10 @@ class Renderer {
     /// first call allocates and builds the table of the air between (some 40 ms), from then on prepare()
     /// keeps it; it may throw like the constructor. Ridges stand where a straight ray sees them.
     void draw_scene(std::size_t channel, const DeferredInput& input);
+
+    /// Through what another renderer should draw what keeps rain and snow off in the prepared frame, for
+    /// draw_scene(); none while nothing lies on the land.
+    [[nodiscard]] std::optional<precipitation::ExposureView> exposure_view() const noexcept;
 
     /// The GL name of a channel's picture, its bottom row first; complete after draw(). 0 for a channel that
     /// is not there or has no picture.

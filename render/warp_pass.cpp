@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "render/gl/draw.h"
 #include "render/warp/warp.h"
@@ -101,15 +102,17 @@ void WarpPass::bind_flat() const {
 }
 
 void WarpPass::make_resampling() {
-    resampling_.emplace(Resampling{.program = {"warp/resample.vert", "warp/resample.frag"}, .screens = {}});
+    if (resampling_) return;
+    Resampling made{.program = {"warp/resample.vert", "warp/resample.frag"}, .screens = {}};
     for (const Channel& channel : channels_) {
-        std::optional<gl::Mesh>& screen = resampling_->screens.emplace_back();
+        std::optional<gl::Mesh>& screen = made.screens.emplace_back();
         if (channel.warp) screen.emplace(screen_mesh(*channel.warp));
     }
+    resampling_.emplace(std::move(made));
 }
 
 void WarpPass::resample(std::size_t channel, const gl::Framebuffer& picture) {
-    if (!resampling_) make_resampling();
+    make_resampling();
     resampling_->program.use();
     gl::bind_texture(0, picture.texture());
     gl::set_blend(gl::Blend::kReplace);

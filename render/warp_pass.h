@@ -33,8 +33,11 @@ class WarpPass {
     /// What of a channel's flat picture may show, with a fiftieth to spare for edges drawn straight.
     [[nodiscard]] glm::dmat4 shown_from_clip(std::size_t channel) const noexcept;
 
+    /// What resample() needs, once. \throws std::runtime_error as the constructor
+    void make_resampling();
+
     /// Draws a finished flat picture as that channel shows it, over all of the framebuffer that is bound.
-    /// The first call makes the program and may throw.
+    /// Where make_resampling() was not called the first call does that.
     void resample(std::size_t channel, const gl::Framebuffer& picture);
 
   private:
@@ -46,8 +49,6 @@ class WarpPass {
         gl::Program program;
         std::vector<std::optional<gl::Mesh>> screens;  // by channel
     };
-    void make_resampling();
-
     std::span<const Channel> channels_;
     std::optional<Bound> flat_;                 // in rigs that have a warp
     std::vector<std::optional<Bound>> warped_;  // by channel

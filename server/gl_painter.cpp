@@ -24,6 +24,7 @@ void GlPainter::sit_down() {
     for (ChannelGuard& guard : guards_)
         guard.begin_anew();
     if (eyes_) seat_->renderer().adapt_as(*eyes_);
+    if (ready_wanted_) seat_->renderer().make_ready();
 }
 
 void GlPainter::leave_lost_device() noexcept {
@@ -39,6 +40,11 @@ void GlPainter::draw_clouds() {
     if (draws_clouds_ || !seat_) return;
     seat_->renderer().draw_clouds(render::scene_clouds());
     draws_clouds_ = true;
+}
+
+void GlPainter::make_ready() {
+    ready_wanted_ = true;
+    if (seat_) seat_->renderer().make_ready();
 }
 
 void GlPainter::prepare(const render::Scene& scene) {

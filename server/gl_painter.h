@@ -22,6 +22,8 @@ class GlPainter final : public Painter {
     /// Clouds can be drawn from the next frame on. Called at the first scene that has some if it was not
     /// before: who must not be held up then for a quarter of a second calls it at the start.
     void draw_clouds();
+    /// The same of patterns, texts and resampling, now and after each reset.
+    void make_ready();
     void thin(render::Thinned thinned) override { thinned_ = thinned; }
     [[nodiscard]] render::Thinned thinnable() const override { return thinnable_; }
     /// The first call may throw; later it does not: what cannot be had of the device is as its loss. After a
@@ -74,6 +76,7 @@ class GlPainter final : public Painter {
     std::vector<ChannelGuard> guards_;
     std::vector<int> errors_to_make_;
     bool clouds_wanted_ = false;
+    bool ready_wanted_ = false;
     bool draws_clouds_ = false;
     bool has_prepared_ = false;
     std::uint64_t errors_ = 0;

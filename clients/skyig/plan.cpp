@@ -48,8 +48,10 @@ StillPlan plan_still(const PlanOptions& options) {
     if (still.scene.weather.cloud_count > 0) frame.draw_clouds(render::scene_clouds());
     frame.prepare(still.scene, pixel_rad, smallest_sr);
     out.first = frame.plan();
+    render::plan_screens(out.first, channels);
     frame.prepare(still.scene, pixel_rad, smallest_sr);
     out.next = frame.plan();
+    render::plan_screens(out.next, channels);
     out.adaptation_cd_m2 = frame.adaptation_cd_m2();
     for (std::size_t i = 0; i < screens.distinct.size(); ++i)
         out.clipped.push_back(frame.clipped(i));

@@ -6,7 +6,7 @@
 
 namespace skyig::server::status {
 
-inline constexpr std::size_t kMostPasses = 24;
+inline constexpr std::size_t kMostPasses = 32;
 
 /// Both texts are literals.
 struct PassState {

@@ -2,11 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
+#include "render/gl/objects.h"
 #include "tests/render/gl_fixture.h"
+#include "tests/render/warps.h"
 
 namespace skyig::render {
 namespace {
@@ -81,39 +85,105 @@ bool plain_fields(const glm::dvec3& d) {
     return elevation_deg > 0.6 && elevation_deg < 75.0;
 }
 
+struct Edges {
+    int count = 0;
+    double largest_deg = 0.0;
+    double sum2 = 0.0;
+};
+
+/// How far the edges of a checker's picture lie from whole five degrees.
+/// \param direction  of a place of the picture in pixels, right and down from its upper left corner
+template <class Direction>
+Edges edges_of(const Picture& picture, const Direction& direction) {
+    Edges edges;
+    const auto measure = [&](int x, int y, int next_x, int next_y) {
+        const double here = picture.at(x, y).r - 127.5, there = picture.at(next_x, next_y).r - 127.5;
+        // Only whole edges: corners of four fields are grey.
+        if (here * there >= 0.0 || std::abs(here - there) < 120.0) return;
+        const double share = here / (here - there);
+        const glm::dvec3 d = direction(x + 0.5 + share * (next_x - x), y + 0.5 + share * (next_y - y));
+        if (!plain_fields(d)) return;
+        const double off_deg = off_lines_deg(d);
+        edges.largest_deg = std::max(edges.largest_deg, off_deg);
+        edges.sum2 += off_deg * off_deg;
+        ++edges.count;
+    };
+    // The channel's name stands in the lower left corner.
+    for (int y = 0; y < kHeight - 60; y += 7) {
+        for (int x = 0; x + 1 < kWidth; ++x)
+            measure(x, y, x + 1, y);
+    }
+    for (int x = 0; x < kWidth; x += 7) {
+        for (int y = 0; y + 1 < kHeight - 60; ++y)
+            measure(x, y, x, y + 1);
+    }
+    return edges;
+}
+
+void expect_in_place(const Edges& edges, const char* name) {
+    std::printf("%-18s %5d edges: off by %.4f deg (rms), %.4f at most\n", name, edges.count,
+                std::sqrt(edges.sum2 / std::max(edges.count, 1)), edges.largest_deg);
+    EXPECT_GT(edges.count, 200) << name;
+    EXPECT_LE(edges.largest_deg, 0.05) << name;
+}
+
 TEST_F(PatternTest, EdgesOfTheCheckerLieAtWholeFiveDegrees) {
     for (const Look& look : looks()) {
         const Scene scene = scene_of(look, Pattern::kChecker);
-        const Picture picture = draw_pattern(look, Pattern::kChecker);
-        double largest_deg = 0.0, sum2 = 0.0;
-        int edges = 0;
-        const auto measure = [&](int x, int y, int next_x, int next_y) {
-            const double here = picture.at(x, y).r - 127.5, there = picture.at(next_x, next_y).r - 127.5;
-            // Only whole edges: corners of four fields are grey.
-            if (here * there >= 0.0 || std::abs(here - there) < 120.0) return;
-            const double share = here / (here - there);
-            const glm::dvec3 d =
-                direction(scene, x + 0.5 + share * (next_x - x), y + 0.5 + share * (next_y - y));
-            if (!plain_fields(d)) return;
-            const double off_deg = off_lines_deg(d);
-            largest_deg = std::max(largest_deg, off_deg);
-            sum2 += off_deg * off_deg;
-            ++edges;
-        };
-        // The channel's name stands in the lower left corner.
-        for (int y = 0; y < kHeight - 60; y += 7) {
-            for (int x = 0; x + 1 < kWidth; ++x)
-                measure(x, y, x + 1, y);
-        }
-        for (int x = 0; x < kWidth; x += 7) {
-            for (int y = 0; y + 1 < kHeight - 60; ++y)
-                measure(x, y, x, y + 1);
-        }
-        std::printf("%-18s %5d edges: off by %.4f deg (rms), %.4f at most\n", look.name, edges,
-                    std::sqrt(sum2 / std::max(edges, 1)), largest_deg);
-        EXPECT_GT(edges, 200) << look.name;
-        EXPECT_LE(largest_deg, 0.05) << look.name;
+        expect_in_place(
+            edges_of(draw_pattern(look, Pattern::kChecker),
+                     [&](double x_px, double y_down_px) { return direction(scene, x_px, y_down_px); }),
+            look.name);
     }
+}
+
+// The truth is the cylinder's geometry, not the mesh that the warp is made of.
+TEST_F(PatternTest, EdgesOfTheCheckerLieAtWholeFiveDegreesThroughACurvedScreen) {
+    const CurvedScreen curved;
+    Channel channel{"left", kWidth, kHeight};
+    channel.warp = curved.warp(kWidth, kHeight);
+    for (const auto& [name, drawing] : {std::pair{"curved, direct", WarpDrawing::kDirect},
+                                        {"curved, resampled", WarpDrawing::kResampled}}) {
+        channel.drawing = drawing;
+        channel.render_scale = drawing == WarpDrawing::kResampled ? 1.5 : 1.0;
+        Renderer renderer({channel}, undithered());
+        for (const auto& [azimuth_deg, elevation_deg, roll_deg] :
+             {std::array{0.0, 5.0, 0.0}, {140.0, -12.0, 20.0}}) {
+            Look look{name, curved.frustum(), azimuth_deg, elevation_deg, roll_deg};
+            const Scene scene = scene_of(look, Pattern::kChecker);
+            const glm::dmat3 enu_from_view = glm::transpose(scene.views[0].view_from_enu);
+            expect_in_place(
+                edges_of(
+                    draw(renderer, scene)[0],
+                    [&](double x_px, double y_down_px) {
+                        return enu_from_view * curved.direction({x_px / kWidth, 1.0 - y_down_px / kHeight});
+                    }),
+                name);
+        }
+    }
+}
+
+// What a view first wants in the middle of a flight holds no frame up.
+TEST_F(PatternTest, OnceReadyAPatternATextAndAResampledChannelMakeNoObject) {
+    const CurvedScreen curved;
+    Channel warped{"warped", kWidth, kHeight};
+    warped.warp = curved.warp(kWidth, kHeight);
+    warped.drawing = WarpDrawing::kResampled;
+    Renderer renderer({{"flat", kWidth, kHeight}, warped}, undithered());
+    renderer.make_ready();
+    Scene scene = scene_of(looks()[0], Pattern::kOff);
+    add_view(scene, curved.frustum(), view_from_enu(0.0, 5.0, 0.0));
+    renderer.prepare(scene);
+    renderer.draw(0);
+    const std::size_t before = gl::count_objects();
+    scene.views[0].pattern = Pattern::kChecker;
+    scene.views[1].overlay = 1;
+    scene.overlay.lines[0].say("a line");
+    renderer.prepare(scene);
+    renderer.draw(0);
+    renderer.draw(1);
+    EXPECT_EQ(gl::count_objects(), before);
+    EXPECT_EQ(renderer.gl_errors(), 0U);
 }
 
 TEST_F(PatternTest, FieldsOfTheCheckerTakeTurns) {

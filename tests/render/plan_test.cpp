@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -14,7 +15,9 @@
 #include "render/night/star_colour.h"
 #include "render/night/star_scintillation.h"
 #include "render/star_field.h"
+#include "render/warp/blend.h"
 #include "tests/render/scenes.h"
+#include "tests/render/warps.h"
 
 namespace skyig::render {
 namespace {
@@ -393,6 +396,25 @@ TEST(Plan, DomeKeepsItsSizeUntilItIsClearlyTooFine) {
     EXPECT_EQ(sized(fine, 0.011), fine) << "it stays while it is hardly too fine";
     const DomeSize shrunk = sized(fine, 4.0);
     EXPECT_LT(shrunk.sky_rows, fine.sky_rows);
+}
+
+TEST(Plan, ScreensThatAreWarpedResampledOrBlendedAskForTheirPasses) {
+    Plan plan = plan_of(tests::four_times().front().scene, {});
+    for (const Pass pass : {Pass::kWarp, Pass::kResampling, Pass::kBlend})
+        EXPECT_FALSE(plan.needs(pass)) << pass_name(pass);
+    const auto screen = tests::identity_warp(64, 48);
+    std::vector<Channel> rig{{"flat", 64, 48}, {"curved", 64, 48}, {"deferred", 64, 48}};
+    rig[1].warp = rig[2].warp = screen;
+    plan_screens(plan, rig);
+    EXPECT_TRUE(plan.needs(Pass::kWarp));
+    EXPECT_FALSE(plan.needs(Pass::kResampling));
+    rig[2].drawing = WarpDrawing::kResampled;
+    rig[0].blend = std::make_shared<const warp::Blend>();
+    plan_screens(plan, rig);
+    EXPECT_TRUE(plan.needs(Pass::kWarp));
+    EXPECT_TRUE(plan.needs(Pass::kResampling));
+    EXPECT_TRUE(plan.needs(Pass::kBlend));
+    EXPECT_EQ(plan[Pass::kBlend].cost, Cost::kChannel);
 }
 
 TEST(Plan, EveryPassSaysWhy) {
