@@ -5,6 +5,9 @@
 #include <span>
 #include <utility>
 
+#include "config/warp/grey_map.h"
+#include "render/cloud/field/texture.h"
+#include "render/fog/patches.h"
 #include "render/weather_area.h"
 #include "render/weather_ramp.h"
 #include "server/start_weather/layers.h"
@@ -76,11 +79,42 @@ Obscurant obscurant_of(const ShownLayer& layer, Obscurant::Kind kind, const glm:
     return obscurant;
 }
 
+static_assert(static_cast<int>(config::CloudNoise::kPuffs) == static_cast<int>(render::CloudNoise::kPuffs) &&
+                  static_cast<int>(config::CloudNoise::kFibres) ==
+                      static_cast<int>(render::CloudNoise::kFibres),
+              "one order of noises in settings and scene");
+
+render::CloudLook look_of(const config::WeatherSheet& sheet) {
+    render::CloudLook look;
+    for (render::CloudLook::Tile& tile : look.tiles)
+        tile.weight = 0.0;
+    for (std::size_t i = 0; i < std::min(sheet.textures.size(), look.tiles.size()); ++i) {
+        const config::WeatherTexture& texture = sheet.textures[i];
+        render::CloudLook::Tile& tile = look.tiles[i];
+        if (texture.image) {
+            tile.picture = std::make_shared<render::cloud::field::Texture>(texture.image->width_px,
+                                                                           texture.image->values);
+        }
+        tile.noise = static_cast<render::CloudNoise>(texture.noise);
+        tile.times = std::max(static_cast<int>(std::lround(config::kTexturesRepeat_m / texture.size_m)), 1);
+        tile.scroll_m_s = wind_towards_m_s(texture.scroll_m_s, texture.scroll_from_deg);
+        tile.weight = texture.weight;
+    }
+    look.density_offset = sheet.density_offset;
+    look.self_shadow = sheet.self_shadow;
+    look.colour = {sheet.colour[0], sheet.colour[1], sheet.colour[2]};
+    return look;
+}
+
 }  // namespace
 
-WeatherSettings weather_settings(const config::Weather& weather) noexcept {
-    WeatherSettings settings{
-        weather.transition_s, weather.elevation_m, static_cast<render::CloudModel>(weather.clouds), {}};
+WeatherSettings weather_settings(const config::Weather& weather) {
+    WeatherSettings settings;
+    settings.transition_s = weather.transition_s;
+    settings.elevation_m = weather.elevation_m;
+    settings.clouds = static_cast<render::CloudModel>(weather.clouds);
+    for (const config::WeatherSheet& sheet : weather.sheets)
+        settings.looks[static_cast<std::size_t>(genus_of(sheet.type))] = look_of(sheet);
     if (weather.driver == config::WeatherDriver::kKeyframes) settings.keyframes = weather.keyframes;
     return settings;
 }
@@ -192,7 +226,7 @@ void WeatherBuilder::show(const EyePlane& plane, const render::Scene& scene,
                 show_cloud(layer, scene, area, weather);
                 break;
             case Family::kObscurant:
-                show_obscurant(layer, area, weather);
+                show_obscurant(layer, scene, area, weather);
                 break;
             case Family::kFalling:
                 show_falling(layer, scene, area, weather);
@@ -230,13 +264,28 @@ void WeatherBuilder::show_cloud(const ShownLayer& layer, const render::Scene& sc
     cloud.severity = state.severity;
     cloud.seed = seed_of(layer.told.key);
     cloud.area = area;
+    cloud.look = settings_.looks[layer.told.key.kind];
 }
 
-void WeatherBuilder::show_obscurant(const ShownLayer& layer, const std::optional<WeatherArea>& area,
+void WeatherBuilder::show_obscurant(const ShownLayer& layer, const render::Scene& scene,
+                                    const std::optional<WeatherArea>& area,
                                     render::Weather& weather) noexcept {
     const LayerKey& key = layer.told.key;
     Obscurant made = obscurant_of(layer, static_cast<Obscurant::Kind>(key.kind), drifts_.at(key.place), area);
     made.coverage = layer.state.coverage;
+    const render::fog::PatchedFog fog = render::fog::in_patches(made, std::min(scene.eye.height_m, 0.0));
+    if (fog.patches.coverage > 0.0 && fog.patches.extinction_per_m > 0.0) {
+        // Where there is no place for them their mean is shown.
+        if (weather.cloud_count == render::Weather::kMaxClouds) {
+            add(made, weather);
+            return;
+        }
+        weather.clouds[weather.cloud_count++] = fog.patches;
+    }
+    add(fog.even, weather);
+}
+
+void WeatherBuilder::add(const Obscurant& made, render::Weather& weather) noexcept {
     if (made.extinction_per_m <= 0.0) return;
     if (weather.obscurant_count == render::Weather::kMaxObscurants) {
         ++left_out_;
@@ -251,13 +300,7 @@ void WeatherBuilder::show_falling(const ShownLayer& layer, const render::Scene& 
     const bool snow = kind == Precipitation::Kind::kSnow;
     const Obscurant made = obscurant_of(layer, snow ? Obscurant::Kind::kSnow : Obscurant::Kind::kRain,
                                         drifts_.at(layer.told.key.place), area);
-    if (made.extinction_per_m > 0.0) {
-        if (weather.obscurant_count == render::Weather::kMaxObscurants) {
-            ++left_out_;
-        } else {
-            weather.obscurants[weather.obscurant_count++] = made;
-        }
-    }
+    add(made, weather);
     const double below_eye_mm_h = layer.state.rate_mm_h * layer.uncovered * weight_at_eye(area);
     const double as_snow = snow ? 1.0 : kind == Precipitation::Kind::kSleet ? 0.5 : 0.0;
     if (kind != Precipitation::Kind::kHail) {

@@ -16,6 +16,9 @@
 
 namespace skyig::server::weather {
 
+/// Numbers of render::CloudGenus, 0 with them.
+inline constexpr std::size_t kCloudGenera = 11;
+
 struct WeatherSettings {
     /// How long a change takes, >= 0.
     double transition_s = 10.0;
@@ -24,9 +27,11 @@ struct WeatherSettings {
     render::CloudModel clouds = render::CloudModel::kAuto;
     /// They make the air, the stars and the colours of the sky, and scale the clouds; none: the host does.
     std::optional<config::Keyframes> keyframes;
+    /// Of genera that are drawn as sheets of their own, by render::CloudGenus.
+    std::array<std::optional<render::CloudLook>, kCloudGenera> looks;
 };
 
-[[nodiscard]] WeatherSettings weather_settings(const config::Weather& weather) noexcept;
+[[nodiscard]] WeatherSettings weather_settings(const config::Weather& weather);
 
 /// Fills the scene's weather, and its air's visibility while that changes. What is told is shown after
 /// `transition_s`; the first frame, a jump of the clock and the world's reset are shown at once.
@@ -55,8 +60,9 @@ class WeatherBuilder {
     void show(const EyePlane& plane, const render::Scene& scene, render::Weather& weather) noexcept;
     void show_cloud(const ShownLayer& layer, const render::Scene& scene,
                     const std::optional<render::WeatherArea>& area, render::Weather& weather) noexcept;
-    void show_obscurant(const ShownLayer& layer, const std::optional<render::WeatherArea>& area,
-                        render::Weather& weather) noexcept;
+    void show_obscurant(const ShownLayer& layer, const render::Scene& scene,
+                        const std::optional<render::WeatherArea>& area, render::Weather& weather) noexcept;
+    void add(const render::Obscurant& made, render::Weather& weather) noexcept;
     void show_falling(const ShownLayer& layer, const render::Scene& scene,
                       const std::optional<render::WeatherArea>& area, render::Weather& weather) noexcept;
     void cover_ground(const render::Scene& scene, bool at_once) noexcept;

@@ -43,6 +43,7 @@ std::vector<Column> columns_of(const Shape& shape, float thickness_m) {
 std::vector<float> flat_values_of(Shape shape) {
     for (Fine& fine : shape.fines)
         fine.weight = 0.0F;
+    shape.fibres.weight = 0.0F;
     std::fill(std::begin(shape.lift), std::end(shape.lift), 0.0F);
     std::vector<float> values(kColumns);
     Points points{};
@@ -81,6 +82,7 @@ float lowest_value(const Shape& shape) {
         sum += flat.weight;
     for (const Fine& fine : shape.fines)
         sum += fine.weight;
+    sum += shape.fibres.weight;
     return -0.5F * sum;
 }
 
@@ -111,7 +113,8 @@ Coverage::Coverage(const Noise& noise) {
         const std::vector<float> flats = flat_values_of(shape);
         const float full = lowest_value(shape) - shape.edge;
         for (std::size_t d = 0; d < kDepths.size(); ++d) {
-            const float part = hiding_part(kDepths[d]);
+            const float own = genus_of(genus).covered_part;
+            const float part = own > 0.0F ? own : hiding_part(kDepths[d]);
             for (std::size_t i = 0; i < columns.size(); ++i)
                 thresholds[i] = threshold_of(columns[i], shape.edge, part);
             put_curve(thresholds, full, curves_[static_cast<std::size_t>(Drawn::kVolume)][g][d]);

@@ -44,20 +44,26 @@ struct Genus {
     /// How far the first pushes the second, in tiles of it, per unit of value.
     std::array<float, 2> push{};
     std::array<GenusFine, 2> fines{};
+    /// Of the anvil.
+    GenusFlat fibres{};
     std::array<float, 3> lift{};
     float edge = 0.2F;
     float reach_m = 200.0F;
     /// Shortest and longest steps through it.
     float step_m = 16.0F;
     float stride_m = 200.0F;
+    /// A step is no longer than this part of the layer's thickness, where it is shortest.
+    float step_part = 0.1F;
     float extinction_per_m = 0.05F;
     float usual_thickness_m = 500.0F;
     bool ice = false;
+    /// Of a column, from where on it counts as covered; 0: where it hides what is behind it.
+    float covered_part = 0.0F;
     /// Metres that its large shapes move against its small ones in a second, and that all rises.
     float change_m_s = 1.0F;
 };
 
-inline constexpr std::size_t kGenera = 11;
+inline constexpr std::size_t kGenera = 12;
 /// In the place that no CloudGenus has: a cumulonimbus before its anvil.
 inline constexpr CloudGenus kTower{};
 [[nodiscard]] const Genus& genus_of(CloudGenus genus) noexcept;

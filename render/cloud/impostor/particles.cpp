@@ -39,6 +39,7 @@ double cell_m(CloudGenus genus) {
         case CloudGenus::kStratocumulus:
             return 1400.0;
         case CloudGenus::kCumulus:
+        case CloudGenus::kFogPatches:
             break;
         case CloudGenus::kAltostratus:
         case CloudGenus::kCirrostratus:

@@ -97,6 +97,19 @@ TEST(Presets, HaveTheirExtras) {
     ASSERT_NE(patches, nullptr);
     EXPECT_DOUBLE_EQ(patches->coverage, 0.5);
     EXPECT_DOUBLE_EQ(patches->visibility_m, 100.0);
+    // In the middle of one; the air between them is in it.
+    WeatherBench bench(patchy);
+    bench.frame();
+    EXPECT_EQ(bench.weather().obscurant_count, 0U);
+    ASSERT_EQ(bench.weather().cloud_count, 2U);
+    const auto clouds = bench.weather().all_clouds();
+    const auto drawn = std::find_if(clouds.begin(), clouds.end(), [](const render::CloudLayer& cloud) {
+        return cloud.genus == render::CloudGenus::kFogPatches;
+    });
+    ASSERT_NE(drawn, clouds.end());
+    EXPECT_EQ(drawn->coverage, 0.5);
+    const double air_per_m = -std::log(0.05) / bench.scene.air.visibility_m;
+    EXPECT_NEAR(-std::log(0.05) / (drawn->extinction_per_m + air_per_m), 100.0, 1e-6);
 }
 
 /// RVR by Allard of lights for which 600 m go with a MOR of 450 m.

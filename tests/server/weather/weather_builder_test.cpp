@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "config/warp/grey_map.h"
+#include "render/cloud/field/texture.h"
 #include "server/start_weather/layers.h"
 #include "server/world/conditions.h"
 #include "tests/server/weather/weather_bench.h"
@@ -49,6 +51,38 @@ TEST(WeatherBuilder, ADayOfWindHasNoJump) {
     bench.send(wind(30.0F, 0.0F));
     bench.frame(1.0 / 60.0);
     EXPECT_LT(glm::distance(bench.weather().clouds[0].drift_m, shown.drift_m), 1.0);
+}
+
+TEST(WeatherBuilder, CloudsOfATypeLookAsTheirSheetSays) {
+    config::Config config = world::three_channels();
+    config::WeatherSheet sheet;
+    sheet.type = config::LayerType::kCirrus;
+    sheet.colour = {1.0, 0.9, 0.8};
+    sheet.textures.resize(2);
+    config::warp::GreyMap grey{16, 16, std::vector<float>(256, 0.25F)};
+    sheet.textures[0].image = std::make_shared<config::warp::GreyMap>(std::move(grey));
+    sheet.textures[0].size_m = 30'000.0;
+    sheet.textures[1].noise = config::CloudNoise::kFibres;
+    sheet.textures[1].scroll_m_s = 10.0;
+    sheet.textures[1].scroll_from_deg = 270.0;
+    config.weather.sheets.push_back(sheet);
+    WeatherBench bench(config);
+    bench.send(cloud(1, CloudType::kCirrus, 9000.0F, 50.0F), cloud(2, CloudType::kCumulus, 1000.0F, 50.0F));
+    const render::Weather& weather = bench.frame(1.0).weather;
+    ASSERT_EQ(weather.cloud_count, 2U);
+    for (const render::CloudLayer& layer : weather.all_clouds()) {
+        const bool cirrus = layer.genus == render::CloudGenus::kCirrus;
+        ASSERT_EQ(layer.look.has_value(), cirrus);
+        if (!cirrus) continue;
+        const auto& tiles = layer.look->tiles;
+        ASSERT_TRUE(tiles[0].picture);
+        EXPECT_EQ(tiles[0].picture->side(), 16);
+        EXPECT_EQ(tiles[0].times, 4);
+        EXPECT_EQ(tiles[1].noise, render::CloudNoise::kFibres);
+        EXPECT_NEAR(tiles[1].scroll_m_s.x, 10.0, 1e-9);
+        EXPECT_EQ(tiles[2].weight, 0.0);
+        EXPECT_EQ(layer.look->colour.z, 0.8);
+    }
 }
 
 TEST(WeatherBuilder, TheEyeHasItsOwnVelocityAndWind) {

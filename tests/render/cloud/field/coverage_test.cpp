@@ -56,7 +56,9 @@ TEST(Coverage, IsWhatIsAskedFor) {
                                      {CloudGenus::kCirrocumulus, "Cc", 250.0, 0.04},
                                      {CloudGenus::kCirrus, "Ci, sheet", 1000.0, 0.01, 0.0, true},
                                      {CloudGenus::kCirrostratus, "Cs, sheet", 1000.0, 0.01, 0.0, true},
-                                     {CloudGenus::kCirrocumulus, "Cc, sheet", 250.0, 0.04, 0.0, true}};
+                                     {CloudGenus::kCirrocumulus, "Cc, sheet", 250.0, 0.04, 0.0, true},
+                                     // Half as dense as in a patch hides just half of what is behind.
+                                     {CloudGenus::kFogPatches, "fog", 40.0, 2.0 * std::log(2.0) / 40.0}};
     for (const Case& c : cases) {
         double worst = 0.0;
         for (const double asked : {0.1, 0.3, 0.5, 0.7, 0.9}) {

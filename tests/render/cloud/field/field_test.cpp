@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "render/cloud/field/shapes.h"
 #include "render/cloud/slab_light.h"
 #include "tests/support/allocation_count.h"
 
@@ -123,6 +124,45 @@ TEST(CloudField, OverlappingLayersAddTheirExtinction) {
     const CloudLayer two = slab_of(1200.0, 400.0, 0.5);
     const CloudSample up = seen(scene_of({one, two}, 2.0), plain_light(), {ray_at(0.5 * kPi, 0.0)})[0];
     EXPECT_NEAR(up.transmittance, std::exp(-1.5F), 0.005F);
+}
+
+TEST(CloudField, AnvilsAreDrawnOutIntoThreads) {
+    Shape shape = shape_of(matrix()->noise, CloudGenus::kCumulonimbus, {});
+    ASSERT_GT(shape.fibres.weight, 0.0F);
+    // The threads alone.
+    for (Flat& flat : shape.flats)
+        flat.weight = 0.0F;
+    for (Fine& fine : shape.fines)
+        fine.weight = 0.0F;
+    std::fill(std::begin(shape.lift), std::end(shape.lift), 0.0F);
+    const auto values = [&](const glm::dvec2& shift_m, float height_m) {
+        std::vector<float> found;
+        Points points{};
+        for (int i = 0; i < 40 * kRays; ++i) {
+            const int lane = i % kRays;
+            points.east_m[lane] = static_cast<float>(1931.0 * i + shift_m.x);
+            points.north_m[lane] = static_cast<float>(733.0 * i + shift_m.y);
+            points.height_m[lane] = height_m;
+            if (lane + 1 < kRays) continue;
+            kernels().values(shape, 1000.0F, points);
+            found.insert(found.end(), std::begin(points.value), std::end(points.value));
+        }
+        return found;
+    };
+    const std::vector<float> there = values({}, 900.0F);
+    const auto change = [&](const glm::dvec2& shift_m) {
+        double sum = 0.0;
+        const std::vector<float> beside = values(shift_m, 900.0F);
+        for (std::size_t i = 0; i < there.size(); ++i)
+            sum += static_cast<double>(std::abs(beside[i] - there[i]));
+        return sum / static_cast<double>(there.size());
+    };
+    const double along = change(300.0 * glm::normalize(glm::dvec2{5.0, 1.0}));
+    const double across = change(300.0 * glm::normalize(glm::dvec2{-1.0, 5.0}));
+    std::printf("threads of an anvil: 300 m along them %.4f, across %.4f\n", along, across);
+    EXPECT_GT(across, 3.0 * along);
+    for (const float value : values({}, 590.0F))
+        EXPECT_EQ(value, 0.0F);
 }
 
 TEST(CloudField, LightInLanesIsTheSlabModels) {
@@ -326,6 +366,60 @@ std::vector<CloudRay> tiles_of_rays(double lowest, double highest) {
             rays.push_back(ray_at(elevation + 0.0025 * (i / 32), 2.1 * tile + 0.0025 * (i % 32)));
     }
     return rays;
+}
+
+// What a black mark at that distance keeps of its contrast, among patches of fog: by the march, and by a sum
+// of a metre's steps over the field's own value in double.
+TEST(CloudField, ContrastAmongPatchesOfFogIsThatOfThePath) {
+    constexpr double kEye_m = 3.0;
+    constexpr double kPerM = 2.996 / 100.0 - 2.996 / 1500.0;
+    CloudField field(matrix());
+    double largest = 0.0;
+    int compared = 0;
+    int gaps = 0;
+    for (int place = 0; place < 24; ++place) {
+        CloudLayer fog = layer_of(CloudGenus::kFogPatches, 0.0, 40.0, 0.5);
+        fog.top_band_m = 10.0;
+        fog.extinction_per_m = kPerM;
+        fog.drift_m = kWorld_m * glm::dvec2(std::fmod(0.7548776662466927 * place, 1.0),
+                                            std::fmod(0.5698402909980532 * place, 1.0));
+        field.freeze(scene_of({fog}, kEye_m), plain_light());
+        const Layer& layer = field.field().layers[0];
+        const double azimuth = 2.4 * place;
+        const std::array<CloudRay, 1> ray{
+            {{glm::vec3{glm::dvec3{std::sin(azimuth), std::cos(azimuth), 0.0}}}}};
+        double depth = 0.0;
+        for (int first = 0; first < 640; first += kRays) {
+            Points points{};
+            for (int i = 0; i < kRays; ++i) {
+                const double along_m = first + i + 0.5;
+                points.north_m[i] = static_cast<float>(along_m * std::cos(azimuth));
+                points.east_m[i] = static_cast<float>(along_m * std::sin(azimuth)) +
+                                   field.field().closing * points.north_m[i];
+                points.height_m[i] = static_cast<float>(kEye_m);
+            }
+            kernels().values(layer.shape, layer.thickness_m, points);
+            for (const float value : points.value) {
+                const double x =
+                    std::clamp(static_cast<double>((value - layer.threshold) / layer.shape.edge), 0.0, 1.0);
+                depth += kPerM * x * x * (3.0 - 2.0 * x);
+            }
+            const double to_m = first + kRays;
+            if (depth > 3.0) break;
+            std::array<CloudSample, 1> sample;
+            field.march(ray, {0.0F, static_cast<float>(to_m)}, 1e-3F, sample);
+            const double marched = static_cast<double>(sample[0].transmittance);
+            largest = std::max(largest, std::abs(marched / std::exp(-depth) - 1.0));
+            ++compared;
+            gaps += depth == 0.0 ? 1 : 0;
+        }
+    }
+    std::printf("%d marks among patches, %d of them through a gap alone: contrast within %.2f %%\n", compared,
+                gaps, 100.0 * largest);
+    RecordProperty("largest_relative_error", std::to_string(largest));
+    EXPECT_GT(compared, 60);
+    EXPECT_GT(gaps, 5);
+    EXPECT_LT(largest, 0.05);
 }
 
 TEST(CloudField, TellsWhatARayCosts) {
