@@ -24,12 +24,12 @@ inline constexpr double kMaxOffset_m = 1000.0;
 /// Largest half angle of a frustum side, either sign.
 inline constexpr double kMaxHalfAngle_deg = 87.5;
 inline constexpr int kMaxChannelSize_px = 16384;
+/// From the eye to a windscreen.
+inline constexpr double kLeastWindscreen_m = 0.3;
+inline constexpr double kMostWindscreen_m = 3.0;
 
 /// How a warped channel is drawn: each thing where the screen shows it, or a flat picture that is resampled.
 enum class WarpDrawing : std::uint8_t { kDirect, kResampled };
-
-inline constexpr double kLeastWindscreen_m = 0.3;
-inline constexpr double kMostWindscreen_m = 3.0;
 
 struct Channel {
     /// 1..32 of letters, digits, '-' and '_', unique: it becomes part of file names.
@@ -67,9 +67,8 @@ struct Channel {
     WarpDrawing warp_drawing = WarpDrawing::kDirect;
     /// Of the flat picture that is resampled, by the screen's pixels each way, 0.25..4.
     double render_scale = 1.0;
-    /// From the eye to a windscreen on which rain stands in drops, kLeastWindscreen_m..kMostWindscreen_m; 0:
-    /// none.
-    double windscreen_m = 0.0;
+    /// From the eye to a windscreen on which rain stands in drops, kLeastWindscreen_m..kMostWindscreen_m.
+    std::optional<double> windscreen_m;
     /// As large as the channel; null: no other projector shines on its screen.
     std::shared_ptr<const warp::BlendMask> blend;
 };

@@ -154,6 +154,9 @@ constexpr std::array kSiteMeanings{
     Meaning{"channel", "view_id", "unique; how View Control and View Definition name the channel",
             "place in the file, from 1"},
     Meaning{"channel", "group_id", "view group it moves with, 0 for none"},
+    Meaning{"channel", "windscreen_m",
+            "from the eye to a pane on which [rain stands in drops](weather.md#drops-on-a-windscreen); not "
+            "with a warp"},
     Meaning{"channel", "pattern",
             "a [test pattern](operations.md#setting-up-displays), shown in place of the sky until the host "
             "asks for another"},

@@ -16,7 +16,7 @@ View view_of(const config::Channel& channel) {
                  channel.roll_deg};
     view.half_angles = {channel.left_deg, channel.right_deg, channel.bottom_deg, channel.top_deg};
     view.pattern = channel.pattern;
-    view.windscreen_m = channel.windscreen_m;
+    view.windscreen_m = channel.windscreen_m.value_or(0.0);
     return view;
 }
 

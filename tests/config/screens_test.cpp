@@ -67,7 +67,7 @@ TEST(Screens, ChannelsShowAPatternByName) {
 }
 
 TEST(Screens, AChannelMayLookThroughAWindscreen) {
-    EXPECT_EQ(parse_config(with(""), "site.toml").config->channels[0].windscreen_m, 0.0);
+    EXPECT_FALSE(parse_config(with(""), "site.toml").config->channels[0].windscreen_m);
     const LoadResult result = parse_config(with("") + "windscreen_m = 0.8", "site.toml");
     ASSERT_TRUE(result);
     EXPECT_EQ(result.config->channels[0].windscreen_m, 0.8);
