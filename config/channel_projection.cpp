@@ -37,20 +37,18 @@ void read_drawing(TableReader& own, int width_px, int height_px, Channel& channe
     constexpr std::array<std::string_view, 2> kDrawings{"direct", "resampled"};
     own.choice("draw", channel.warp_drawing, kDrawings);
     if (channel.warp_drawing == WarpDrawing::kResampled) {
-        own.number("render_scale", channel.render_scale, {0.25, 4.0, {}});
-    } else if (const Value* scale = own.any("render_scale"); scale != nullptr) {
-        own.error(*scale, "render_scale",
-                  "is of pictures that are resampled: write draw = \"resampled\" beside it, or leave it out "
-                  "(what is drawn directly has the screen's own pixels)");
-        return;
-    }
-    const int side_px = std::max(width_px, height_px);
-    if (scale != nullptr && std::lround(channel.render_scale * side_px) > kMaxChannelSize_px) {
+        const Value* scale = own.number("render_scale", channel.render_scale, {0.25, 4.0, {}});
+        const int side_px = std::max(width_px, height_px);
+        if (scale == nullptr || std::lround(channel.render_scale * side_px) <= kMaxChannelSize_px) return;
         own.error(
             *scale, "render_scale",
             fmt::format("makes a side of {} pixels of {}; pictures have at most {}: write {:.4g} or less",
                         std::lround(channel.render_scale * side_px), side_px, kMaxChannelSize_px,
                         std::floor(1e3 * kMaxChannelSize_px / side_px) * 1e-3));
+    } else if (const Value* scale = own.any("render_scale"); scale != nullptr) {
+        own.error(*scale, "render_scale",
+                  "is of pictures that are resampled: write draw = \"resampled\" beside it, or leave it out "
+                  "(what is drawn directly has the screen's own pixels)");
     }
 }
 
