@@ -69,6 +69,8 @@ option(SKYIG_UNITY "Compile files in batches, for builds from nothing" OFF)
 function(skyig_compile_together TARGET)
   if(SKYIG_UNITY)
     set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    # gcc warns of types that hold one of an unnamed namespace in every file but the one it was given.
+    target_compile_options(${TARGET} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
 endfunction()
 function(skyig_compile_usually TARGET)

@@ -28,6 +28,9 @@ inline constexpr int kMaxChannelSize_px = 16384;
 /// How a warped channel is drawn: each thing where the screen shows it, or a flat picture that is resampled.
 enum class WarpDrawing : std::uint8_t { kDirect, kResampled };
 
+inline constexpr double kLeastWindscreen_m = 0.3;
+inline constexpr double kMostWindscreen_m = 3.0;
+
 struct Channel {
     /// 1..32 of letters, digits, '-' and '_', unique: it becomes part of file names.
     std::string name;
@@ -64,6 +67,9 @@ struct Channel {
     WarpDrawing warp_drawing = WarpDrawing::kDirect;
     /// Of the flat picture that is resampled, by the screen's pixels each way, 0.25..4.
     double render_scale = 1.0;
+    /// From the eye to a windscreen on which rain stands in drops, kLeastWindscreen_m..kMostWindscreen_m; 0:
+    /// none.
+    double windscreen_m = 0.0;
     /// As large as the channel; null: no other projector shines on its screen.
     std::shared_ptr<const warp::BlendMask> blend;
 };

@@ -38,6 +38,16 @@ void read_own_overlay(TableReader& table, const Overlay& usual, Channel& channel
     own.finish();
 }
 
+void read_windscreen(TableReader& table, Channel& channel) {
+    const Value* value =
+        table.number("windscreen_m", channel.windscreen_m, {kLeastWindscreen_m, kMostWindscreen_m, "m"});
+    if (value != nullptr && channel.warp) {
+        table.error(
+            *value, "windscreen_m",
+            "is of channels without a warp, whose pictures are what is seen through a pane; leave it out");
+    }
+}
+
 ChannelPlaces read_channel(TableReader& table, ErrorList& errors, const Config& config, Channel& channel) {
     ChannelPlaces places;
     places.name = places.view_id = places.offset = table.place();
@@ -60,6 +70,7 @@ ChannelPlaces read_channel(TableReader& table, ErrorList& errors, const Config& 
     table.integer("group_id", channel.group_id, 0, 255);
     read_own_screen(table, config.display, channel);
     table.choice("pattern", channel.pattern, kPatternNames);
+    read_windscreen(table, channel);
     read_own_overlay(table, config.overlay, channel);
     read_viewport(table, errors, config.windows, channel);
     table.finish();

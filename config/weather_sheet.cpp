@@ -80,7 +80,7 @@ void read_texture(TableReader& table, const std::string& settings_file, WeatherT
 
 void read_weather_sheet(TableReader& table, ErrorList& errors, WeatherSheet& sheet) {
     table.require("type", "which clouds look so: \"cirrus\", \"stratus\" ...");
-    const Value* type = table.choice("type", sheet.type, std::span(kLayerTypeNames));
+    const Value* type = table.choice("type", sheet.type, kLayerTypeNames);
     if (type != nullptr && !is_cloud(sheet.type)) table.error(*type, "type", "is no cloud; it must be one");
     table.number("density_offset", sheet.density_offset, {-4.0, 4.0, {}});
     table.number("self_shadow", sheet.self_shadow, {0.0, 10.0, {}});

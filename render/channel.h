@@ -77,6 +77,9 @@ struct ChannelView {
     Pattern pattern = Pattern::kOff;
     /// Which lines of Scene::overlay lie over it. \see Overlay
     std::uint8_t overlay = 0;
+    /// From the eye to a pane on which rain stands in drops, across the view axis, metres; 0: there is none.
+    /// Not of warped channels.
+    float windscreen_m = 0.0F;
 };
 
 /// The extents of the image plane at distance 1: x in [left, right], y in [bottom, top].

@@ -30,6 +30,10 @@ struct DeferredInput {
     /// The clouds' shadows fall on what is drawn. It is then told in the area's mean light under clouds, and
     /// gets what a level surface gets there; false: it has its own shadows.
     bool shadows = true;
+    /// What keeps rain and snow off: the other renderer's depths through Renderer::exposure_view(), 0 at the
+    /// near plane and 1 at the far one and where nothing stands, one float component, ExposureView::kSize_px
+    /// a side, its bottom row first. 0: everything lies open.
+    unsigned exposure_texture = 0;
 };
 
 /// The air between the eye and things for a frame's Sun and Moon, kept fresh in slices like LightTables. Free

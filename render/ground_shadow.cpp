@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "render/cloud_shade.h"
 #include "render/colour.h"
@@ -47,11 +48,14 @@ Falling falling(const LitAir& lit, const glm::dvec3& direction_enu, const sky::A
 void GroundShadow::stop() noexcept {
     map_.stop();
     shown_ = false;
+    begun_ = true;
 }
 
 void GroundShadow::update(cloud::CloudMaker& maker, const cloud::CloudMoment& moment,
                           const sky::AirTables& air, const SkyLight& light, bool jumped) {
     map_.reserve();
+    // A first scene has its shadows; later ones come in from the mean.
+    const bool at_once = !std::exchange(begun_, true) || jumped;
     const Scene& scene = moment.scene;
     const Falling sun = falling(light.sun, scene.sun.direction_enu, air, light);
     const Falling moon = falling(light.moon, scene.moon.direction_enu, air, light);
@@ -66,8 +70,9 @@ void GroundShadow::update(cloud::CloudMaker& maker, const cloud::CloudMoment& mo
     source_enu_ = from.source_enu;
     const CloudShare mean = CloudShade(scene.weather, light.ground_albedo).at(0.0, from.source_enu.z);
     const double radius_rad = of_moon ? scene.moon.angular_radius_rad : scene.sun.angular_radius_rad;
-    map_.update(maker, {moment, from.source_enu, 2.0 * radius_rad, static_cast<double>(mean.direct),
-                        jumped || turned});
+    if (turned) map_.stop();
+    map_.update(maker,
+                {moment, from.source_enu, 2.0 * radius_rad, static_cast<double>(mean.direct), at_once});
     ++frames_;
     height_m_ = std::max(moment.eye.height_m, 0.5);
     heights_m_ = {1e6, 0.0};

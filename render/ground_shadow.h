@@ -76,6 +76,7 @@ class GroundShadow {
     cloud::ShadowMap map_;
     bool shown_ = false;
     bool of_moon_ = false;
+    bool begun_ = false;  // told of a scene before
     glm::dvec3 source_enu_{0.0, 0.0, 1.0};
     glm::dvec3 sunlit_cd_m2_{0.0};
     glm::dvec3 beam_over_mean_{0.0};

@@ -14,6 +14,7 @@
 #include "render/night/night_sky.h"
 #include "render/night/star_colour.h"
 #include "render/night/star_scintillation.h"
+#include "render/precipitation/exposure.h"
 #include "render/precipitation/streak_field.h"
 #include "render/sky/sea_surface.h"
 #include "render/sky/staleness.h"
@@ -112,6 +113,7 @@ Cost cost_of(Pass pass) {
         case Pass::kClouds:
         case Pass::kNearClouds:
         case Pass::kCloudShadows:
+        case Pass::kExposure:
             return Cost::kFrame;
         case Pass::kDome:
         case Pass::kWaves:
@@ -120,10 +122,12 @@ Cost cost_of(Pass pass) {
         case Pass::kCorona:
         case Pass::kSunDisc:
         case Pass::kMoonDisc:
+        case Pass::kCoveredThings:
         case Pass::kWetThings:
         case Pass::kPrecipitation:
         case Pass::kSunGlare:
         case Pass::kMoonGlare:
+        case Pass::kWindscreen:
         case Pass::kPattern:
         case Pass::kOverlay:
         case Pass::kWarp:
@@ -185,8 +189,37 @@ void plan_night(Plan& plan, double sun_rad) {
     put(plan, Pass::kMilkyWay, {false, "not decided yet"});
 }
 
+// What rain and snow do to another renderer's things, and what it is asked for.
+void plan_ground(Plan& plan, const Scene& scene) {
+    using precipitation::ExposureView;
+    const bool land = scene.ground.kind == Ground::Kind::kLand;
+    const bool wet = land && scene.ground.wet > 0.0;
+    const bool white = land && scene.ground.snow > 0.0;
+    put(plan, Pass::kExposure,
+        wet || white ? Verdict{true, "another renderer may tell what keeps rain or snow off"}
+                     : Verdict{false, "nothing lies on the land"});
+    plan.passes[static_cast<std::size_t>(Pass::kExposure)].resolution = {ExposureView::kSize_px,
+                                                                         ExposureView::kSize_px};
+    put(plan, Pass::kCoveredThings,
+        white ? Verdict{true, "snow lies on another renderer's things"}
+        : wet ? Verdict{true, "water darkens another renderer's things"}
+              : Verdict{false, "the land is dry and bare"});
+    const bool film = wet && scene.ground.snow < 1.0;
+    put(plan, Pass::kWetThings,
+        film  ? Verdict{true, "another renderer's land is wet"}
+        : wet ? Verdict{false, "the land lies under snow"}
+              : Verdict{false, "the land is dry"});
+}
+
 void plan_over_pictures(Plan& plan, const Scene& scene) {
     const auto views = scene.channel_views();
+    const bool pane = std::any_of(views.begin(), views.end(),
+                                  [](const ChannelView& view) { return view.windscreen_m > 0.0F; });
+    const bool rain = scene.weather.precipitation_count > 0;
+    put(plan, Pass::kWindscreen,
+        !pane  ? Verdict{false, "no channel looks through one"}
+        : rain ? Verdict{true, "what falls stands in drops on a channel's pane"}
+               : Verdict{true, "drops that are left on a channel's pane dry off; free of cost without any"});
     const bool pattern = std::any_of(views.begin(), views.end(),
                                      [](const ChannelView& view) { return view.pattern != Pattern::kOff; });
     put(plan, Pass::kPattern,
@@ -202,10 +235,11 @@ void plan_over_pictures(Plan& plan, const Scene& scene) {
 
 std::string_view pass_name(Pass pass) noexcept {
     constexpr std::array<std::string_view, kPassCount> kNames{
-        "air tables",  "sun sky",       "moon sky",  "night sky",  "veil",          "clouds",
-        "near clouds", "cloud shadows", "dome",      "waves",      "milky way",     "stars",
-        "corona",      "sun disc",      "moon disc", "wet things", "precipitation", "sun glare",
-        "moon glare",  "pattern",       "overlay",   "warp",       "resampling",    "blend"};
+        "air tables",    "sun sky",       "moon sky",   "night sky",  "veil",           "clouds",
+        "near clouds",   "cloud shadows", "dome",       "waves",      "milky way",      "stars",
+        "corona",        "sun disc",      "moon disc",  "exposure",   "covered things", "wet things",
+        "precipitation", "sun glare",     "moon glare", "windscreen", "pattern",        "overlay",
+        "warp",          "resampling",    "blend"};
     return kNames[static_cast<std::size_t>(pass)];
 }
 
@@ -285,8 +319,7 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kSunDisc, plan_disc(scene.sun.enabled, sun_rad, sun_radius_rad, sets_at_rad));
     put(plan, Pass::kMoonDisc,
         plan_disc(scene.moon.enabled, moon_rad, scene.moon.angular_radius_rad, sets_at_rad));
-    const bool wet = scene.ground.kind == Ground::Kind::kLand && scene.ground.wet > 0.0;
-    put(plan, Pass::kWetThings, {wet, wet ? "another renderer's land is wet" : "the land is dry"});
+    plan_ground(plan, scene);
     Verdict falls = plan_precipitation(scene);
     if (falls.needed && plan.thins(Thin::kPrecipitation))
         falls.reason = "something falls round the eye: half the streaks, thinned out";

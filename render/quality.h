@@ -23,17 +23,20 @@ enum class Pass {
     kCorona,  ///< what is left of the Sun in a total eclipse
     kSunDisc,
     kMoonDisc,
+    kExposure,       ///< map from above of what falls on another renderer's things
+    kCoveredThings,  ///< snow on them, and how water darkens them
     kWetThings,      ///< the sky in the film on things of another renderer
     kPrecipitation,  ///< streaks of what falls near the eye
     kSunGlare,       ///< the veil round the disc in the eye
     kMoonGlare,
+    kWindscreen,  ///< drops on the panes of channels that have one
     kPattern,     ///< a test pattern in place of the sky
     kOverlay,     ///< texts over the picture
     kWarp,        ///< everything placed as a curved or turned screen shows it
     kResampling,  ///< the same of a finished flat picture, pixel by pixel
     kBlend,       ///< masks and black levels of projectors that overlap
 };
-inline constexpr std::size_t kPassCount = 24;
+inline constexpr std::size_t kPassCount = 27;
 
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 

@@ -28,8 +28,9 @@
 #include "render/sea_pass.h"
 #include "render/sky_frame.h"
 #include "render/star_pass.h"
+#include "render/thing_cover.h"
 #include "render/warp_pass.h"
-#include "render/wet_pass.h"
+#include "render/windscreen_pass.h"
 
 namespace skyig::render {
 
@@ -107,7 +108,6 @@ struct Renderer::Impl {
     void draw_world(std::size_t channel);
     void draw_sky(std::size_t channel);
     void draw_discs(std::size_t channel);
-    void draw_wet(std::size_t channel, const DeferredInput& input);
 
     std::vector<Channel> channels;
     DisplaySettings display;
@@ -140,9 +140,10 @@ struct Renderer::Impl {
     GlarePass sun_glare{placement};
     GlarePass moon_glare{placement};
     std::unique_ptr<DeferredPass> deferred;  // once a scene is drawn
-    std::unique_ptr<WetPass> wet;            // once a wet one is
-    std::unique_ptr<PatternPass> patterns;   // once one is shown
-    std::unique_ptr<TextPass> texts;         // once there are any
+    ThingCover cover{channels.size()};
+    WindscreenPass windscreens{channels.size()};
+    std::unique_ptr<PatternPass> patterns;  // once one is shown
+    std::unique_ptr<TextPass> texts;        // once there are any
 
     // The frame in hand.
     SkyFrame frame;
@@ -174,6 +175,8 @@ void Renderer::Impl::finish(std::size_t channel) {
         warps.resample(channel, *flat_pictures[channel]);
     }
     pictures.finish(channel);
+    if (shows_screen && !shows_pattern(channel) && !channels[channel].warp)
+        windscreens.draw(channel, scene.views[channel], pictures.whole(channel));
     if (shows_screen) blend.draw(channel, pictures.whole(channel), tone32(channel).encode_power);
     if (shows_pattern(channel) || (shows_screen && scene.views[channel].overlay != 0)) write_texts(channel);
     gl::finish();
@@ -364,7 +367,8 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
                                 m.frame.plan().thins(Thin::kPrecipitation) ? kThinnedPrecipitation : 1.0);
     m.prepare_discs(0);
     if (m.deferred) m.refresh_deferred();
-    if (m.wet && m.frame.plan().needs(Pass::kWetThings)) m.wet->prepare(scene, m.frame.light());
+    m.cover.prepare(m.scene, m.frame);
+    m.windscreens.prepare(scene);
     m.report.plan = m.frame.plan();
     plan_screens(m.report.plan, m.channels);
     m.report.adaptation_cd_m2 = m.frame.adaptation_cd_m2();
@@ -403,14 +407,6 @@ void Renderer::Impl::draw_discs(std::size_t channel) {
     gl::set_blend(gl::Blend::kCoverage);
     if (report.plan.needs(Pass::kSunDisc)) sun_disc.draw(clip);
     if (report.plan.needs(Pass::kMoonDisc)) moon_disc.draw(clip);
-}
-
-void Renderer::Impl::draw_wet(std::size_t channel, const DeferredInput& input) {
-    if (!wet) {
-        wet = std::make_unique<WetPass>();
-        wet->prepare(scene, frame.light());
-    }
-    wet->draw(drawn(channel), pictures.view(channel), tone32(channel), input);
 }
 
 void Renderer::draw(std::size_t channel) {
@@ -461,15 +457,20 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
         m.prepare_clouds();
         m.refresh_deferred();
     }
+    const ChannelView& view = m.pictures.view(channel);
+    gl::set_blend(gl::Blend::kReplace);
+    const DeferredInput covered = m.cover.covered(
+        channel, m.channels[channel].warp ? m.flat_channels[channel] : m.pictures.drawn(channel), view,
+        input);
     m.begin(channel, true);
     m.draw_sky(channel);
     m.draw_discs(channel);
     gl::set_blend(gl::Blend::kReplace);
-    m.deferred->draw(m.pictures.view(channel), input, m.tone32(channel));
+    m.deferred->draw(view, covered, m.tone32(channel));
     gl::set_blend(gl::Blend::kCoverage);
-    if (m.report.plan.needs(Pass::kWetThings)) m.draw_wet(channel, input);
+    m.cover.draw_film(m.drawn(channel), view, m.tone32(channel), input);
     if (m.report.plan.needs(Pass::kPrecipitation)) {
-        m.precipitation.draw_before(m.pictures.view(channel), m.tone32(channel), input);
+        m.precipitation.draw_before(view, m.tone32(channel), input);
     }
     // Glare is in the eye: before things too.
     const glm::mat4 clip{m.clip_from_enu(channel)};
@@ -477,6 +478,11 @@ void Renderer::draw_scene(std::size_t channel, const DeferredInput& input) {
     if (m.report.plan.needs(Pass::kMoonGlare)) m.moon_glare.draw_around(clip);
     if (m.report.plan.needs(Pass::kSunGlare)) m.sun_glare.draw_around(clip);
     m.finish(channel);
+}
+
+std::optional<precipitation::ExposureView> Renderer::exposure_view() const noexcept {
+    if (!impl_->report.plan.needs(Pass::kExposure)) return std::nullopt;
+    return precipitation::exposure_view(impl_->scene);
 }
 
 unsigned Renderer::texture(std::size_t channel) const noexcept {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "render/display.h"
 #include "render/eye/adaptation.h"
 #include "render/plan.h"
+#include "render/precipitation/exposure.h"
 #include "render/scene.h"
 #include "render/target.h"
 
@@ -87,6 +89,10 @@ class Renderer {
     /// first call allocates and builds the table of the air between (some 40 ms), from then on prepare()
     /// keeps it; it may throw like the constructor. Ridges stand where a straight ray sees them.
     void draw_scene(std::size_t channel, const DeferredInput& input);
+
+    /// Through what another renderer should draw what keeps rain and snow off in the prepared frame, for
+    /// draw_scene(); none while nothing lies on the land.
+    [[nodiscard]] std::optional<precipitation::ExposureView> exposure_view() const noexcept;
 
     /// The GL name of a channel's picture, its bottom row first; complete after draw(). 0 for a channel that
     /// is not there or has no picture.

@@ -68,6 +68,15 @@ fog::VeilSources veil_sources(const Scene& scene, const sky::AirTables& air, con
     return sources;
 }
 
+glm::dvec3 white_ground_cd_m2(const Scene& scene, const sky::AirTables& air, const SkyLight& light) noexcept {
+    const fog::VeilSources sources = veil_sources(scene, air, light, 0.0);
+    glm::dvec3 level_cd_m2 = sources.above_cd_m2;
+    for (const fog::VeilSources::Beam& beam : sources.beams)
+        level_cd_m2 += beam.lux * (std::max(beam.direction_enu.z, 0.0) / std::numbers::pi);
+    level_cd_m2 += glm::dvec3{light.flash.ground_lux} / std::numbers::pi;
+    return light.veil != nullptr ? level_cd_m2 * light.veil->ground_share() : level_cd_m2;
+}
+
 shaders64::VeilAir front_air(const sky::AirModel& model, double eye_height_m) noexcept {
     // Beyond it no number would hold both the air there and that at the ground.
     constexpr double kNoAir_m = 60e3;

@@ -15,6 +15,10 @@ namespace skyig::render {
 [[nodiscard]] fog::VeilSources veil_sources(const Scene& scene, const sky::AirTables& air,
                                             const SkyLight& light, double top_m) noexcept;
 
+/// Of level ground that sends back all light, in the mean under clouds and fog: illuminance / pi.
+[[nodiscard]] glm::dvec3 white_ground_cd_m2(const Scene& scene, const sky::AirTables& air,
+                                            const SkyLight& light) noexcept;
+
 /// What a property of the air or the ground is at the wavelengths next to those of linear red, green and
 /// blue: 621, 558, 474 nm.
 [[nodiscard]] glm::dvec3 rgb_of(const sky::Spectrum& spectrum) noexcept;

@@ -34,10 +34,7 @@ WetPass::WetPass()
     : program_("sky/deferred.vert", "precipitation/wet.frag"),
       triangle_({}, 3),
       tone_(program_, true),
-      centre_(program_.uniform("u_far_centre")),
-      right_(program_.uniform("u_far_right")),
-      up_(program_.uniform("u_far_up")),
-      size_(program_.uniform("u_size_px")),
+      surface_(program_),
       film_(program_.uniform("u_film")),
       extinction_(program_.uniform("u_extinction_per_m")),
       anchor_(program_.uniform("u_tile_at_eye")),
@@ -51,7 +48,9 @@ WetPass::WetPass()
     slopes_.update(ripples_.slopes());
 }
 
-void WetPass::prepare(const Scene& scene, const SkyLight& light) {
+void WetPass::prepare(const Scene& scene, const SkyLight& light,
+                      const precipitation::ExposureView& exposure) {
+    exposure_ = exposure;
     std::size_t out = 0;
     for (int row = 0; row < kRows; ++row) {
         const double elevation_rad = std::asin(static_cast<double>(row) / (kRows - 1));
@@ -71,16 +70,9 @@ void WetPass::prepare(const Scene& scene, const SkyLight& light) {
 void WetPass::draw(const Channel& channel, const ChannelView& view, const shaders32::ToneParameters& tone,
                    const DeferredInput& input) const {
     tone_.set(program_, tone);
-    const ImagePlane p = image_plane(view.frustum);
-    const glm::dmat3 enu_from_view = glm::transpose(view.view_from_enu) * input.far_m;
+    surface_.bind(program_, channel, view, input, exposure_);
     program_.use();
-    program_.set(centre_, glm::vec3{enu_from_view *
-                                    glm::dvec3{0.5 * (p.left + p.right), 0.5 * (p.bottom + p.top), -1.0}});
-    program_.set(right_, glm::vec3{enu_from_view * glm::dvec3{0.5 * (p.right - p.left), 0.0, 0.0}});
-    program_.set(up_, glm::vec3{enu_from_view * glm::dvec3{0.0, 0.5 * (p.top - p.bottom), 0.0}});
-    program_.set(size_, glm::vec2{channel.width_px, channel.height_px});
     program_.set(pixel_, static_cast<float>(pixel_angle_rad(channel, view.frustum)));
-    gl::bind_texture(0, input.depth_texture);
     gl::bind_texture(1, sky_.name());
     gl::bind_texture(2, slopes_.name());
     triangle_.draw_strip(3);

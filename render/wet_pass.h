@@ -1,4 +1,4 @@
-// The sky in wet things of another renderer that face up.
+// The sky in wet things of another renderer that face up and lie open.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,9 +10,11 @@
 #include "render/gl/mesh.h"
 #include "render/gl/program.h"
 #include "render/gl/texture.h"
+#include "render/precipitation/exposure.h"
 #include "render/precipitation/ripples.h"
 #include "render/scene.h"
 #include "render/sky_light.h"
+#include "render/thing_surface.h"
 
 namespace skyig::render {
 
@@ -22,7 +24,7 @@ class WetPass {
     WetPass();
 
     /// Once a frame whose plan needs it, with light whose film is not 0.
-    void prepare(const Scene& scene, const SkyLight& light);
+    void prepare(const Scene& scene, const SkyLight& light, const precipitation::ExposureView& exposure);
     /// Blends by coverage over things that have been drawn, into the framebuffer that is bound.
     void draw(const Channel& channel, const ChannelView& view, const shaders32::ToneParameters& tone,
               const DeferredInput& input) const;
@@ -36,7 +38,9 @@ class WetPass {
     gl::Program program_;
     gl::Mesh triangle_;
     ToneUniforms tone_;
-    int centre_, right_, up_, size_, film_, extinction_, anchor_, pixel_;
+    ThingSurface surface_;
+    int film_, extinction_, anchor_, pixel_;
+    precipitation::ExposureView exposure_;
     gl::Texture sky_;
     gl::Texture slopes_;
     std::vector<float> texels_;

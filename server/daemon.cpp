@@ -27,6 +27,7 @@
 #include "server/pace.h"
 #include "server/recorder.h"
 #include "server/replay.h"
+#include "server/service/service_manager.h"
 #include "server/status/status_port.h"
 #include "server/stop_signal.h"
 #include "server/window_layouts.h"
@@ -293,6 +294,7 @@ void run(const DaemonOptions& options, const config::Config& config,
          ephemeris::EarthOrientation orientation) {
     StopSignal stop;
     SystemClock clock;
+    service::ServiceManager service = service::ServiceManager::from_environment();
     ManualClock replay_clock;
     std::ofstream events = open_events(options.events_path);
     const FrameLoop* running = nullptr;
@@ -326,16 +328,18 @@ void run(const DaemonOptions& options, const config::Config& config,
     const std::unique_ptr<Preview> preview = open_preview(config);
     FrameLoop loop(config,
                    {clock, log, outside.pace(), outside.wire(), world, painter, images.get(), hashes.get(),
-                    table.get(), exchange.get(), preview.get()},
+                    table.get(), exchange.get(), preview.get(), &service},
                    options.frames, options.out_every, std::move(orientation));
     log.info("ephemeris {}", loop.report().ephemeris_text());
     const auto status_port = open_status(config.status, status_facts(loop, outside, clock), *exchange,
                                          outside, clock, preview.get(), log);
     loop.warm_up();
     running = &loop;
+    service.ready(outside.heard(options, config));
     const std::int64_t cpu_before_ns = clock.processor_ns();
     loop.run([&stop] { return stop.requested(); });
     const std::int64_t cpu_ns = clock.processor_ns() - cpu_before_ns;
+    service.stopping();
     if (images) images->finish();
     outside.finish();
     tell_ends(log, outside, painter.description());

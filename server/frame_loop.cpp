@@ -105,6 +105,7 @@ bool FrameLoop::run_frame() {
     }
     close_frame(slot, times);
     if (parts_.status != nullptr) publish_status(scene);
+    if (parts_.service != nullptr) parts_.service->frame_drawn(last_end_ns_);
     return wanted;
 }
 

@@ -25,6 +25,7 @@
 #include "server/preview.h"
 #include "server/report.h"
 #include "server/scene_builder.h"
+#include "server/service/service_manager.h"
 #include "server/status/snapshot_exchange.h"
 #include "server/wire.h"
 #include "server/world/world.h"
@@ -49,6 +50,8 @@ struct FrameLoopParts {
     status::SnapshotExchange* status = nullptr;
     /// Null: nobody asks for small pictures.
     Preview* preview = nullptr;
+    /// Null: nobody watches that frames come.
+    service::ServiceManager* service = nullptr;
 };
 
 /// Neither a host nor a disk can hold it up. A frame allocates nothing in steady state.

@@ -3,7 +3,7 @@ skyig_compile_alone(flightgear_input.cpp recorder.cpp)
 skyig_library(server_loop
   SOURCES answers.cpp bus_input.cpp display_pace.cpp flightgear_input.cpp frame_hashes.cpp frame_loop.cpp frame_pacer.cpp frame_status.cpp frame_table.cpp from_config.cpp host_timing.cpp image_writer.cpp inbox.cpp live_wire.cpp lock_step.cpp overlay_text.cpp overload.cpp recorder.cpp replay.cpp
           stop_signal.cpp
-  DEPS server server_report server_status server_world server_ephemeris config protocol_canaerospace protocol_cigi protocol_flightgear protocol_recording protocol_transport render_overlay render_scene fmt::fmt
+  DEPS server server_report server_service server_status server_world server_ephemeris config protocol_canaerospace protocol_cigi protocol_flightgear protocol_recording protocol_transport render_overlay render_scene fmt::fmt
        Threads::Threads)
 target_compile_definitions(server_loop PUBLIC SKYIG_VERSION="${PROJECT_VERSION}")
 

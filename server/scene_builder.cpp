@@ -227,6 +227,7 @@ void SceneBuilder::aim_views(const world::World& world, render::Scene& scene) no
         scene.views[i].frustum = frustum_of(view.half_angles);
         scene.views[i].showing = showing_of(view);
         scene.views[i].pattern = static_cast<render::Pattern>(view.pattern);
+        scene.views[i].windscreen_m = static_cast<float>(view.windscreen_m);
         scene.views[i].view_from_enu =
             render::view_from_body() * axes_from_parent(view.pose) * group_from_body * body_from_eye_enu;
     }

@@ -240,8 +240,7 @@ bool ShadowMap::lead_level(const Weather& weather, bool at_once) noexcept {
 }
 
 void ShadowMap::update(CloudMaker& maker, const ShadowFrame& frame) {
-    const bool at_once =
-        begun_ == 0 || frame.jumped || (last_eye_ && has_leapt(*last_eye_, frame.moment.eye));
+    const bool at_once = frame.jumped || (last_eye_ && has_leapt(*last_eye_, frame.moment.eye));
     const bool first = !shown_ || at_once;
     if (first) {
         reserve();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/shaders/shared.h"
 #include "render/sky/air_law.h"
 
 namespace skyig::render::sky {
@@ -19,11 +20,6 @@ Spectrum spectrum_of(Albedo&& albedo) noexcept {
     return spectrum;
 }
 
-// Clean snow loses a little towards the red (Wiscombe and Warren 1980); sastrugi and age take a tenth.
-double snow_albedo(double nm) {
-    return 0.87 - 0.04 * std::clamp((nm - 400.0) / 300.0, 0.0, 1.0);
-}
-
 // Light that comes back out of clear ocean: pi times the remote-sensing reflectance.
 double water_albedo(double nm) {
     constexpr std::array<double, 9> kNm = {390, 412, 443, 490, 510, 555, 620, 670, 705};
@@ -34,15 +30,6 @@ double water_albedo(double nm) {
         ++k;
     const double part = std::clamp((nm - kNm[k - 1]) / (kNm[k] - kNm[k - 1]), 0.0, 1.0);
     return std::numbers::pi * (kPerSr[k - 1] + part * (kPerSr[k] - kPerSr[k - 1]));
-}
-
-// Of land under a film of water: what gets in is sent back and forth below its surface (Angstrom 1925, after
-// Lekner and Dorf 1988), whose diffuse reflectance is 0.066 from above and 1 - 0.934 / 1.33^2 from below.
-// What the film mirrors is not in it.
-double wet_albedo(double dry) {
-    constexpr double kEnters = 1.0 - 0.066;
-    constexpr double kHeld = 1.0 - kEnters / (1.33 * 1.33);
-    return kEnters * (1.0 - kHeld) * dry / (1.0 - kHeld * dry);
 }
 
 void lay_land(const Ground& ground, AirModel& model) noexcept {
@@ -57,7 +44,7 @@ void lay_land(const Ground& ground, AirModel& model) noexcept {
     const double wet = in_steps(ground.wet, 16.0);
     model.ground_albedo = spectrum_of([&](double nm) {
         const double dry = std::min(scale * bare_land_albedo(nm), 1.0);
-        const double land = dry + wet * (wet_albedo(dry) - dry);
+        const double land = dry + wet * (shaders64::wet_albedo(dry) - dry);
         return land + snow * (snow_albedo(nm) - land);
     });
 }
@@ -70,6 +57,10 @@ void lay_sea(AirModel& model) noexcept {
 }
 
 }  // namespace
+
+double snow_albedo(double wavelength_nm) noexcept {
+    return 0.87 - 0.04 * std::clamp((wavelength_nm - 400.0) / 300.0, 0.0, 1.0);
+}
 
 void lay_ground(const Ground& ground, AirModel& model) noexcept {
     if (ground.kind == Ground::Kind::kSea) {

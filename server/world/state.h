@@ -93,6 +93,8 @@ struct View {
     bool orthographic = false;
     /// Shown in place of the sky.
     config::Pattern pattern = config::Pattern::kOff;
+    /// 0: it has no windscreen.
+    double windscreen_m = 0.0;
 };
 
 /// A source and who speaks for it, as it stands now.

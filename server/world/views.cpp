@@ -16,6 +16,7 @@ View view_of(const config::Channel& channel) {
                  channel.roll_deg};
     view.half_angles = {channel.left_deg, channel.right_deg, channel.bottom_deg, channel.top_deg};
     view.pattern = channel.pattern;
+    view.windscreen_m = channel.windscreen_m;
     return view;
 }
 

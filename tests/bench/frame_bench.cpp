@@ -1,7 +1,7 @@
 // What a channel costs, as a multiple of "a write": a full-screen triangle with a literal colour into RGBA8
 // of the same size, drawn in turn with it in the same run. Medians of wall time, and of the processor time of
 // all threads, which other work on the machine touches less.
-//   frame_bench [ROUNDS [clouds | patterns]]     default 60; with a word: those alone
+//   frame_bench [ROUNDS [clouds | ground | patterns]]     default 60; with a word: those alone
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -311,6 +311,86 @@ void print_over_pictures(int rounds) {
     }
 }
 
+// Median of what `what` costs in writes over what `base` does, drawn in turn.
+template <class What, class Base>
+double writes_over(const What& what, const Base& base, int rounds) {
+    Write write_once(kWidth, kHeight);
+    std::vector<double> writes;
+    for (int i = -5; i < rounds; ++i) {
+        const Spent write = spent(write_once);
+        const Spent less = spent(base);
+        const Spent more = spent(what);
+        if (i >= 0) writes.push_back((more.wall_ms - less.wall_ms) / write.wall_ms);
+    }
+    return median(writes);
+}
+
+// Another renderer's level floor 12 m below the eye, over two thirds of the picture: what water and snow add.
+void print_covered_floor(int rounds) {
+    constexpr double kFar_m = 1000.0;
+    Scene dry = tests::make_scene(48.0, 185.0, -10.0, 40.0, 12.0);
+    look_at(dry, 175.0, -10.0, 60.0);
+    std::vector<float> depths;
+    for (int row = 0; row < kHeight; ++row) {
+        const glm::dvec3 view =
+            view_direction({"only", kWidth, kHeight}, dry.views[0].frustum, 0.5 * kWidth, row + 0.5);
+        const double down = -(glm::transpose(dry.views[0].view_from_enu) * view).z;
+        const double along_m = down > 0.012 ? 12.0 / down * -view.z : kFar_m;
+        depths.insert(depths.end(), kWidth, static_cast<float>(along_m / kFar_m));
+    }
+    const gl::Texture colour(gl::TexelFormat::kRgba32F, kWidth, kHeight);
+    const gl::Texture depth(gl::TexelFormat::kR32F, kWidth, kHeight);
+    constexpr int kMap_px = precipitation::ExposureView::kSize_px;
+    const gl::Texture map(gl::TexelFormat::kR32F, kMap_px, kMap_px);
+    colour.update(std::vector<float>(std::size_t{kWidth} * kHeight * 4, 2000.0F));
+    depth.update(depths);
+    map.update(std::vector<float>(std::size_t{kMap_px} * kMap_px, 1.0F));
+    const auto draws = [&](Renderer& renderer, unsigned exposure) {
+        return [&renderer, &colour, &depth, exposure] {
+            renderer.draw_scene(0, {colour.name(), depth.name(), kFar_m, true, exposure});
+        };
+    };
+    Renderer plain({{"only", kWidth, kHeight}}, {});
+    plain.prepare(dry);
+    for (const bool white : {false, true}) {
+        Scene scene = dry;
+        (white ? scene.ground.snow : scene.ground.wet) = 1.0;
+        Renderer renderer({{"only", kWidth, kHeight}}, {});
+        renderer.prepare(scene);
+        std::printf("floor under %s: %+.2f writes, with a map from above %+.2f\n", white ? "snow" : "water",
+                    writes_over(draws(renderer, 0), draws(plain, 0), rounds),
+                    writes_over(draws(renderer, map.name()), draws(plain, 0), rounds));
+    }
+}
+
+void print_windscreen(int rounds) {
+    for (const double speed_m_s : {0.0, 70.0}) {
+        Scene bare = tests::make_scene(30.0, 120.0, -30.0, 200.0, 300.0);
+        look_at(bare, 175.0, 8.0, 60.0);
+        bare.weather.precipitations[0] = {Precipitation::Kind::kRain, 20.0, 1500.0};
+        bare.weather.precipitation_count = 1;
+        bare.weather.eye_velocity_m_s = {0.0, -speed_m_s, 0.0};
+        Scene scene = bare;
+        scene.views[0].windscreen_m = 0.8F;
+        Renderer plain({{"only", kWidth, kHeight}}, {});
+        Renderer with({{"only", kWidth, kHeight}}, {});
+        plain.prepare(bare);
+        std::vector<double> shared;
+        for (int i = 0; i < 900; ++i) {
+            scene.time_s += 1.0 / 30.0;
+            shared.push_back(spent([&] { with.prepare(scene); }).processor_ms);
+        }
+        std::printf("windscreen in 20 mm/h at %.0f m/s: %+.2f writes; frames prepare in %.3f ms of cpu\n",
+                    speed_m_s, writes_over([&] { with.draw(0); }, [&] { plain.draw(0); }, rounds),
+                    median(shared));
+    }
+}
+
+void print_ground(int rounds) {
+    print_covered_floor(rounds);
+    print_windscreen(rounds);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -320,6 +400,8 @@ int main(int argc, char** argv) {
     if (argc > 2) {
         if (std::string(argv[2]) == "patterns")
             print_over_pictures(rounds);
+        else if (std::string(argv[2]) == "ground")
+            print_ground(rounds);
         else
             print_all_clouds(rounds);
         return 0;
@@ -340,5 +422,6 @@ int main(int argc, char** argv) {
     print_all_clouds(rounds);
     print_all_that_falls(rounds);
     print_over_pictures(rounds);
+    print_ground(rounds);
     return 0;
 }

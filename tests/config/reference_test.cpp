@@ -121,6 +121,11 @@ preset = "storm"
 type = "cirrus"
 base_ft = 20000
 thickness_ft = 500
+[[weather.sheet]]
+type = "cirrus"
+[[weather.sheet.texture]]
+noise = "fibres"
+weight = 0.5
 [[weather.area]]
 latitude_deg = 47
 longitude_deg = 8

@@ -66,6 +66,16 @@ TEST(Screens, ChannelsShowAPatternByName) {
     EXPECT_EQ(config.channels[0].pattern, Pattern::kGrid);
 }
 
+TEST(Screens, AChannelMayLookThroughAWindscreen) {
+    EXPECT_EQ(parse_config(with(""), "site.toml").config->channels[0].windscreen_m, 0.0);
+    const LoadResult result = parse_config(with("") + "windscreen_m = 0.8", "site.toml");
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result.config->channels[0].windscreen_m, 0.8);
+    const ConfigError error = error_of(with("") + "windscreen_m = 0.1");
+    EXPECT_EQ(error.key, "channel[1].windscreen_m");
+    EXPECT_THAT(error.message, HasSubstr("0.3"));
+}
+
 TEST(Screens, ChannelsOverlayIsAVariantOfTheUsualOne) {
     const LoadResult result = parse_config(
         with("[overlay]\nmode = true\nhost_lost = true") + "[channel.overlay]\nmode = false\nscale = 4",

@@ -126,6 +126,8 @@ TEST_F(WarpFiles, BadMeshesAreRefusedWithTheReason) {
     EXPECT_THAT(refusal(fmt::format("{}[channel.warp]\nmesh = \"none.pfm\"\n", kSized)),
                 HasSubstr("cannot be read: No such file"));
     folder_.write("mesh.pfm", mesh);
+    EXPECT_THAT(refusal(fmt::format("{}windscreen_m = 0.8\n[channel.warp]\nmesh = \"mesh.pfm\"\n", kSized)),
+                HasSubstr("channels without a warp"));
     EXPECT_THAT(refusal(fmt::format("{}[channel.warp]\nmesh = \"mesh.pfm\"\nrender_scale = 2\n", kSized)),
                 HasSubstr("draw = \"resampled\""));
     EXPECT_THAT(refusal("version = 1\n[[channel]]\nname = \"wide\"\nwidth_px = 7680\nheight_px = 1080\n"

@@ -19,7 +19,8 @@ using tests::Folder;
 
 std::string settings_with(std::string_view texture) {
     return fmt::format(
-        "version = 1\n[[channel]]\nname = \"centre\"\n[weather]\n[[weather.sheet]]\ntype = \"cirrus\"\n"
+        "version = 1\n[[channel]]\nname = \"centre\"\nwidth_px = 64\nheight_px = 64\nfov_deg = "
+        "60\n[weather]\n[[weather.sheet]]\ntype = \"cirrus\"\n"
         "[[weather.sheet.texture]]\n{}\n",
         texture);
 }
@@ -78,7 +79,7 @@ TEST(WeatherSheet, AnImageThatCannotServeIsToldWithItsKeyAndReason) {
         const LoadResult read = read_in(folder, fmt::format("image = \"{}\"", each.file));
         ASSERT_EQ(read.errors.size(), 1U) << each.file;
         EXPECT_EQ(read.errors[0].key, "weather.sheet[1].texture[1].image");
-        EXPECT_EQ(read.errors[0].line, 8);
+        EXPECT_EQ(read.errors[0].line, 11);
         EXPECT_THAT(read.errors[0].message, HasSubstr(each.reason));
     }
 }

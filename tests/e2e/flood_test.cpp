@@ -5,22 +5,19 @@
 //                             work too
 //   SKYIG_FLOOD_DAEMON_CPU=A  the daemon keeps to processor A; without it the system puts it where it likes
 #include <gtest/gtest.h>
-#include <pthread.h>
-#include <sched.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/e2e/flooder.h"
+#include "tests/e2e/frame_times.h"
 #include "tests/e2e/process.h"
 #include "tests/e2e/site.h"
 
@@ -34,71 +31,6 @@ constexpr double kBound = 0.05;
 constexpr std::int64_t kSettle_ns = 100'000'000;
 constexpr std::size_t kQuietParts = 3;
 
-std::optional<int> number_from(const char* name) {
-    const char* text = std::getenv(name);
-    if (text == nullptr) return std::nullopt;
-    return std::atoi(text);
-}
-
-/// Keeps this thread, and the programs that it starts, on one processor as long as it lives.
-class Pinned {
-  public:
-    explicit Pinned(int cpu) {
-        pthread_getaffinity_np(pthread_self(), sizeof(before_), &before_);
-        cpu_set_t set;
-        CPU_ZERO(&set);
-        CPU_SET(static_cast<std::size_t>(cpu), &set);
-        pthread_setaffinity_np(pthread_self(), sizeof(set), &set);
-    }
-    ~Pinned() { pthread_setaffinity_np(pthread_self(), sizeof(before_), &before_); }
-    Pinned(const Pinned&) = delete;
-    Pinned& operator=(const Pinned&) = delete;
-
-  private:
-    cpu_set_t before_{};
-};
-
-int last_cpu() {
-    cpu_set_t set;
-    pthread_getaffinity_np(pthread_self(), sizeof(set), &set);
-    int last = 0;
-    for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu)
-        if (CPU_ISSET(static_cast<std::size_t>(cpu), &set)) last = cpu;
-    return last;
-}
-
-struct Frame {
-    std::int64_t utc_ns = 0;
-    double input_us = 0.0;
-    double frame_us = 0.0;
-};
-
-std::vector<Frame> read_table(const std::string& path) {
-    std::istringstream in(read_text(path));
-    std::string line;
-    std::getline(in, line);
-    EXPECT_EQ(line,
-              "frame,utc_ns,slots,late,arrivals,input_us,shared_us,left_us,centre_us,right_us,frame_us");
-    std::vector<Frame> frames;
-    while (std::getline(in, line)) {
-        std::vector<std::string> cells;
-        std::istringstream row(line);
-        for (std::string cell; std::getline(row, cell, ',');)
-            cells.push_back(cell);
-        if (cells.size() == 11)
-            frames.push_back({std::stoll(cells[1]), std::stod(cells[5]), std::stod(cells[10])});
-        EXPECT_EQ(cells.size(), 11U) << line;
-    }
-    return frames;
-}
-
-double quantile(std::vector<double> values, double q) {
-    if (values.empty()) return 0.0;
-    const auto at = static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + at, values.end());
-    return values[static_cast<std::size_t>(at)];
-}
-
 /// All frames of some phases.
 struct Pool {
     std::vector<double> frame_us;
@@ -107,8 +39,8 @@ struct Pool {
     std::uint64_t host_sent = 0;
     std::uint64_t garbage_sent = 0;
 
-    void add(const Phase& phase, const std::vector<Frame>& frames) {
-        for (const Frame& frame : frames) {
+    void add(const Phase& phase, const std::vector<FrameTime>& frames) {
+        for (const FrameTime& frame : frames) {
             if (frame.utc_ns < phase.begin_utc_ns + kSettle_ns || frame.utc_ns >= phase.end_utc_ns) continue;
             frame_us.push_back(frame.frame_us);
             input_us.push_back(frame.input_us);
@@ -174,7 +106,7 @@ struct FloodRun {
         daemon.signal(SIGTERM);
         const Finished finished = daemon.wait();
         EXPECT_EQ(finished.status, 0) << finished.err;
-        frames = read_table(site.times_path);
+        frames = read_frame_times(site.times_path);
         report = Json::parse(read_text(site.report_path));
     }
 
@@ -182,7 +114,7 @@ struct FloodRun {
     /// Those of the rounds begin at `first`; the last is not of them.
     std::vector<Phase> phases;
     std::size_t first = 0;
-    std::vector<Frame> frames;
+    std::vector<FrameTime> frames;
     Json report;
 };
 

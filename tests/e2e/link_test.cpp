@@ -147,14 +147,6 @@ TEST(Link, SecondHostGarbageAndSilenceAreCountedAndToldOnce) {
     EXPECT_EQ(lines_with(log, " lost: "), 1) << log;
 }
 
-/// From the line that says where it is.
-std::string status_url(const Process& daemon) {
-    EXPECT_TRUE(daemon.wait_for_err("status on http://"));
-    const std::string log = daemon.err_so_far();
-    const std::size_t at = log.find("http://");
-    return log.substr(at, log.find("/status", at) - at);
-}
-
 TEST(Link, StatusShowsTheHostLiveAndItsCountersRise) {
     Site site;
     Process daemon(daemon_command(site));

@@ -49,6 +49,13 @@ void TestSocket::send(std::uint16_t to_port, std::span<const std::byte> bytes) c
     if (sent != static_cast<ssize_t>(bytes.size())) throw std::runtime_error("test datagram not sent");
 }
 
+std::string status_url(const Process& daemon) {
+    if (!daemon.wait_for_err("status on http://")) return {};
+    const std::string log = daemon.err_so_far();
+    const std::size_t at = log.find("http://");
+    return log.substr(at, log.find("/status", at) - at);
+}
+
 std::string channel_toml(const std::string& name, int width_px, int height_px, int yaw_deg) {
     return "[[channel]]\nname = \"" + name + "\"\nwidth_px = " + std::to_string(width_px) +
            "\nheight_px = " + std::to_string(height_px) + "\nyaw_deg = " + std::to_string(yaw_deg) +

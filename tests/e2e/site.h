@@ -30,6 +30,9 @@ class TestSocket {
     std::uint16_t port_ = 0;
 };
 
+/// "http://127.0.0.1:PORT" of a daemon, from the line that says where it is; empty if that does not come.
+[[nodiscard]] std::string status_url(const Process& daemon);
+
 /// A [[channel]] 60 degrees wide.
 [[nodiscard]] std::string channel_toml(const std::string& name, int width_px, int height_px, int yaw_deg);
 

@@ -112,6 +112,7 @@ TEST_F(Allocation, SteadyFramesAllocateNothingAndSoAgainAfterNewAir) {
         scene.sky.star_scintillation = true;
         for (const double turn : {-30.0, 30.0})
             add_view(scene, symmetric_frustum(30.0, 64, 64), view_from_enu(180.0, 10.0, 0.0, turn));
+        scene.views[0].windscreen_m = 0.8F;
         Flight flight(channels, scene);
         flight.frames(kWarmUpFrames);
         const long steady = flight.frames(100);

@@ -1,4 +1,4 @@
-// What water mirrors. One text for GLSL and C++.
+// What water mirrors, and what a film of it does to the ground below. One text for GLSL and C++.
 
 // Fresnel's reflectance of unpolarised light at a level mirror. `cosine`: of the angle of incidence, 0..1; `index`: of
 // refraction.
@@ -18,4 +18,13 @@ SKYIG_INLINE real film_reflectance(real up) {
     real square = up * up;
     real lifted = square + film_slope_variance() * max(real(1.0) - real(16.0) * square, real(0.0));
     return fresnel_reflectance(min(sqrt(lifted), real(1.0)), real(1.333));
+}
+
+// Albedo of ground under such a film: what gets in is sent back and forth below its surface (Angstrom 1925, after Lekner and
+// Dorf 1988), whose diffuse reflectance is 0.066 from above and 1 - 0.934 / 1.33^2 from below. What the film mirrors is
+// not in it.
+SKYIG_INLINE real wet_albedo(real dry) {
+    real enters = real(1.0) - real(0.066);
+    real held = real(1.0) - enters / real(1.33 * 1.33);
+    return enters * (real(1.0) - held) * dry / (real(1.0) - held * dry);
 }

@@ -40,7 +40,9 @@ struct Day {
         return static_cast<double>(CloudShade(scene.weather, 0.1).at(0.0, source_enu.z).direct);
     }
     void update(ShadowMap& map, cloud::CloudMaker& maker, double mean_passed, bool jumped = false) const {
-        map.update(maker, {{scene, scene.eye, light}, source_enu, 0.0093, mean_passed, jumped});
+        // A scene begins with its shadows.
+        const bool begins = map.begun() == 0;
+        map.update(maker, {{scene, scene.eye, light}, source_enu, 0.0093, mean_passed, jumped || begins});
     }
 };
 

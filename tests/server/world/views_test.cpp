@@ -125,7 +125,10 @@ TEST(Views, PatternsAreShownByViewByGroupOrInAll) {
     config::Config config = three_channels();
     config.channels[0].group_id = config.channels[2].group_id = 4;
     config.channels[1].pattern = config::Pattern::kGrid;
+    config.channels[1].windscreen_m = 0.8;
     Views views(config.channels);
+    EXPECT_EQ(views.all()[0].windscreen_m, 0.0);
+    EXPECT_EQ(views.all()[1].windscreen_m, 0.8);
     const auto shown = [&views](std::size_t i) { return views.all()[i].pattern; };
     EXPECT_EQ(shown(1), config::Pattern::kGrid);
     EXPECT_TRUE(views.show_pattern(1, config::Pattern::kChecker));

@@ -99,8 +99,8 @@ TEST(ImpostorField, ShadesTheGroundAsItsParticlesDo) {
     sky.show(moment);
     const CloudBeam beam{kSunWay, 0.0F};
     // To the north of the eye; the truth looks up from each place.
-    constexpr std::size_t kPlaces = 300;
-    constexpr double kApart_m = 25.0;
+    constexpr std::size_t kPlaces = 60;
+    constexpr double kApart_m = 130.0;
     std::vector<glm::vec2> places;
     for (std::size_t i = 0; i < kPlaces; ++i)
         places.emplace_back(0.0F, static_cast<float>(kApart_m * static_cast<double>(i)));
@@ -124,15 +124,16 @@ TEST(ImpostorField, ShadesTheGroundAsItsParticlesDo) {
                 worst);
     EXPECT_LT(darkest, 0.2);
     EXPECT_GT(brightest, 0.98);
-    EXPECT_LT(worst, 0.06);
-    // A coarse grain keeps the mean depth, of which more light is left.
+    EXPECT_LT(worst, 0.03);
+    // A coarse grain keeps the mean depth, which leaves less light than the same in heaps.
     std::vector<float> coarse(kPlaces);
     sky.field.shadow(beam, 300.0F, places, coarse);
     double coarse_sum = 0.0;
     for (const float part : coarse)
         coarse_sum += static_cast<double>(part);
     std::printf("in the mean %.3f, with a grain of 300 m %.3f\n", sum / kPlaces, coarse_sum / kPlaces);
-    EXPECT_NEAR(coarse_sum / kPlaces, sum / kPlaces, 0.1);
+    EXPECT_LT(coarse_sum, sum);
+    EXPECT_NEAR(coarse_sum / kPlaces, sum / kPlaces, 0.15);
 }
 
 TEST(ImpostorField, MeetsNothingWhereThereIsNothing) {
