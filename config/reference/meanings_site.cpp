@@ -189,7 +189,8 @@ constexpr std::array kSiteMeanings{
     Meaning{"channel.warp", "draw",
             "each thing where the screen shows it, or a flat picture that is looked up"},
     Meaning{"channel.warp", "render_scale",
-            "of the flat picture, by the screen's pixels each way; with `draw = \"resampled\"`"},
+            "of the flat picture, by the screen's pixels each way, its sides 16384 pixels at most; with "
+            "`draw = \"resampled\"`"},
     Meaning{"channel.blend",
             "mask",
             "the projector's share of the light",
