@@ -61,6 +61,29 @@ function(skyig_test_headers TARGET)
   target_precompile_headers(${TARGET} REUSE_FROM skyig_test_pch)
 endfunction()
 
+# script/setup and script/test compile the files of one target in batches: what their headers instantiate is compiled
+# once for all of them, which more than halves a build from nothing. Where it is: folders with heavy headers, and
+# targets that call it themselves. Files that repeat names of others' unnamed namespaces are named to
+# skyig_compile_alone; a folder of such sets SKYIG_UNITY to OFF. Off by default, for work on single files.
+option(SKYIG_UNITY "Compile files in batches, for builds from nothing" OFF)
+function(skyig_compile_together TARGET)
+  if(SKYIG_UNITY)
+    set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    # gcc warns of types that hold one of an unnamed namespace in every file but the one it was given.
+    target_compile_options(${TARGET} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
+function(skyig_compile_usually TARGET)
+  file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  if(folder MATCHES "^(tests/)?(clients|config|protocol|server)(/|$)")
+    skyig_compile_together(${TARGET})
+  endif()
+endfunction()
+
+function(skyig_compile_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # skyig_library(NAME SOURCES a.cpp ... [DEPS target ...] [PRIVATE_DEPS target ...])
 function(skyig_library NAME)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
@@ -68,6 +91,7 @@ function(skyig_library NAME)
   target_include_directories(${NAME} PUBLIC ${CMAKE_SOURCE_DIR})
   target_link_libraries(${NAME} PUBLIC glm::glm ${ARG_DEPS} PRIVATE skyig_build ${ARG_PRIVATE_DEPS})
   skyig_library_headers(${NAME})
+  skyig_compile_usually(${NAME})
 endfunction()
 
 # What is tested is optimised, the tests' own code hardly: that is two thirds of what it costs to compile. Folders
@@ -100,6 +124,7 @@ function(skyig_test NAME)
   target_link_libraries(${NAME} PRIVATE skyig_build ${ARG_DEPS} GTest::gtest_main GTest::gmock)
   target_compile_options(${NAME} PRIVATE ${SKYIG_TEST_OPTIMISATION})
   skyig_test_headers(${NAME})
+  skyig_compile_usually(${NAME})
   target_compile_definitions(${NAME} PRIVATE
     SKYIG_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
     SKYIG_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"

@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 
+#include "config/file_at.h"
 #include "config/schema.h"
 #include "config/warp/bytes.h"
 #include "config/warp/float_map.h"
@@ -19,25 +21,6 @@ namespace skyig::config {
 namespace {
 
 constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
-
-/// The file that a key names, through `read`: (bytes) -> warp::FileRead. An error at the key if it cannot be
-/// used.
-template <class Read>
-auto file_at(TableReader& table, std::string_view key, const std::string& settings_file, Read read)
-    -> decltype(read(warp::Bytes{}).value) {
-    std::string path;
-    const Value* value = table.text(key, path);
-    if (value == nullptr) return std::nullopt;
-    warp::FileRead<warp::Bytes> bytes = warp::read_bytes(beside(settings_file, path));
-    std::string fault = std::move(bytes.fault);
-    if (bytes.value) {
-        auto result = read(std::move(*bytes.value));
-        if (result.value) return std::move(result.value);
-        fault = std::move(result.fault);
-    }
-    table.error(*value, key, fmt::format("is \"{}\", which cannot be used: {}", path, fault));
-    return std::nullopt;
-}
 
 void read_size(TableReader& table, Channel& channel) {
     table.integer("width_px", channel.width_px, 1, kMaxChannelSize_px, "pixels");
@@ -51,11 +34,10 @@ void require_size(TableReader& table) {
 
 void read_drawing(TableReader& own, Channel& channel) {
     constexpr std::array<std::string_view, 2> kDrawings{"direct", "resampled"};
-    std::size_t drawing = 0;
-    own.choice("draw", drawing, kDrawings);
-    channel.warp_drawing = static_cast<WarpDrawing>(drawing);
-    const Value* scale = own.number("render_scale", channel.render_scale, {0.25, 4.0, {}});
-    if (scale != nullptr && channel.warp_drawing == WarpDrawing::kDirect) {
+    own.choice("draw", channel.warp_drawing, kDrawings);
+    if (channel.warp_drawing == WarpDrawing::kResampled) {
+        own.number("render_scale", channel.render_scale, {0.25, 4.0, {}});
+    } else if (const Value* scale = own.any("render_scale"); scale != nullptr) {
         own.error(*scale, "render_scale",
                   "is of pictures that are resampled: write draw = \"resampled\" beside it, or leave it out "
                   "(what is drawn directly has the screen's own pixels)");
@@ -108,13 +90,13 @@ void read_blend(TableReader own, const std::string& settings_file, Channel& chan
         blend.weight.assign(
             static_cast<std::size_t>(channel.width_px) * static_cast<std::size_t>(channel.height_px), 1.0F);
     }
-    double lift = 0.0;
-    const Value* even = own.number("black_lift", lift, {0.0, 0.5, "of full white"});
-    blend.lift.assign(1, static_cast<float>(lift));
+    std::optional<double> lift;
+    own.number("black_lift", lift, {0.0, 0.5, "of full white"});
+    blend.lift.assign(1, static_cast<float>(lift.value_or(0.0)));
     auto lifts = read_mask(own, "black_mask", warp::MaskPart::kEither, settings_file, channel);
     if (lifts) {
         // With a mask the lift is what its white stands for.
-        const float white = even != nullptr ? static_cast<float>(lift) : 1.0F;
+        const auto white = static_cast<float>(lift.value_or(1.0));
         blend.lift = std::move(lifts->values);
         for (float& value : blend.lift)
             value *= white;

@@ -38,12 +38,6 @@ void read_own_overlay(TableReader& table, const Overlay& usual, Channel& channel
     own.finish();
 }
 
-void read_pattern(TableReader& table, Channel& channel) {
-    std::size_t index = 0;
-    if (table.choice("pattern", index, kPatternNames) != nullptr)
-        channel.pattern = static_cast<Pattern>(index);
-}
-
 ChannelPlaces read_channel(TableReader& table, ErrorList& errors, const Config& config, Channel& channel) {
     ChannelPlaces places;
     places.name = places.view_id = places.offset = table.place();
@@ -65,7 +59,7 @@ ChannelPlaces read_channel(TableReader& table, ErrorList& errors, const Config& 
     }
     table.integer("group_id", channel.group_id, 0, 255);
     read_own_screen(table, config.display, channel);
-    read_pattern(table, channel);
+    table.choice("pattern", channel.pattern, kPatternNames);
     read_own_overlay(table, config.overlay, channel);
     read_viewport(table, errors, config.windows, channel);
     table.finish();

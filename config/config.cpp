@@ -21,11 +21,11 @@ std::string beside(const std::string& settings_file, const std::string& path) {
     return path.empty() ? path : (std::filesystem::path(settings_file).parent_path() / path).string();
 }
 
-LoadResult parse_config(std::string_view text, const std::string& file_name) {
+LoadResult parse_config(std::string_view text, const std::string& file_name, KeyLog* keys) {
     Table root;
     ConfigError syntax{file_name, 0, 0, {}, {}};
     if (!parse_document(text, root, syntax)) return {std::nullopt, {std::move(syntax)}};
-    ErrorList errors(file_name);
+    ErrorList errors(file_name, keys);
     LoadResult result;
     Config config = read_config(root, errors);
     config.ephemeris.earth_orientation = beside(file_name, config.ephemeris.earth_orientation);
@@ -38,11 +38,11 @@ LoadResult parse_config(std::string_view text, const std::string& file_name) {
     return result;
 }
 
-LoadResult load_config(const std::string& path) {
+LoadResult load_config(const std::string& path, KeyLog* keys) {
     ConfigError error;
     const std::optional<std::string> text = read_settings_text(path, error);
     if (!text) return {std::nullopt, {std::move(error)}};
-    return parse_config(*text, path);
+    return parse_config(*text, path, keys);
 }
 
 Config default_config() {

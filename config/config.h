@@ -209,11 +209,15 @@ struct LoadResult {
     explicit operator bool() const noexcept { return config.has_value(); }
 };
 
+class KeyLog;
+
 /// Reads and checks a file; all its errors come at once. Does not throw on anything that a file may hold.
-[[nodiscard]] LoadResult load_config(const std::string& path);
+/// \param keys  is told every key that is asked for (config/key_log.h); null: nobody wants to know
+[[nodiscard]] LoadResult load_config(const std::string& path, KeyLog* keys = nullptr);
 
 /// The same from text; `file_name` only names it in errors.
-[[nodiscard]] LoadResult parse_config(std::string_view text, const std::string& file_name);
+[[nodiscard]] LoadResult parse_config(std::string_view text, const std::string& file_name,
+                                      KeyLog* keys = nullptr);
 
 /// Everything at its default and one channel "centre", 1280x1024, 60 degrees wide.
 [[nodiscard]] Config default_config();

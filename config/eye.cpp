@@ -38,6 +38,7 @@ void read_screen(TableReader& table, Screen& screen) {
     if (most != nullptr) screen.adaptation_cd_m2 = 0.5 * screen.max_luminance_cd_m2;
     table.number("adaptation_cd_m2", screen.adaptation_cd_m2, {0.1, 10'000.0, "cd/m2"});
     read_gamma(table, screen.gamma);
+    table.describe("gamma", "\"srgb\", 1..3", screen.gamma ? to_toml(*screen.gamma) : to_toml("srgb"));
     const Value* black = table.number("black_cd_m2", screen.black_cd_m2, {0.0, 1000.0, "cd/m2"});
     const Value* reflected = table.number("reflected_cd_m2", screen.reflected_cd_m2, {0.0, 1000.0, "cd/m2"});
     const double least_cd_m2 = screen.black_cd_m2 + screen.reflected_cd_m2;
@@ -60,18 +61,13 @@ void read_display(TableReader table, Display& display) {
 }
 
 void read_eye(TableReader table, Eye& eye) {
-    std::size_t index = 0;
-    if (table.choice("operator", index, kToneNames) != nullptr) eye.tone = static_cast<ToneOperator>(index);
+    table.choice("operator", eye.tone, kToneNames);
     table.number("highlight_room", eye.highlight_room, {0.0, 2.0, "decades"});
     table.number("shoulder", eye.shoulder, {0.1, 1.0, "of full white"});
     table.boolean("night_colours", eye.night_colours);
-    if (table.choice("adapt_to", index, kSourceNames) != nullptr)
-        eye.adapt_to = static_cast<AdaptationSource>(index);
-    double fixed_cd_m2 = 0.0;
-    if (table.number("adaptation_cd_m2", fixed_cd_m2, {1e-6, 1e6, "cd/m2"}) != nullptr)
-        eye.adaptation_cd_m2 = fixed_cd_m2;
-    if (table.choice("adapt_pace", index, kPaceNames) != nullptr)
-        eye.pace = static_cast<AdaptationPace>(index);
+    table.choice("adapt_to", eye.adapt_to, kSourceNames);
+    table.number("adaptation_cd_m2", eye.adaptation_cd_m2, {1e-6, 1e6, "cd/m2"});
+    table.choice("adapt_pace", eye.pace, kPaceNames);
     table.number("adapt_up_s", eye.adapt_up_s, {0.0, 600.0, "s"});
     table.number("adapt_down_s", eye.adapt_down_s, {0.0, 600.0, "s"});
     table.boolean("glare", eye.glare);

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string_view>
 
 #include "config/schema.h"
@@ -22,9 +23,12 @@ void read_city_light(TableReader& table, City& city) {
     const bool by_zenith = table.has("zenith_cd_m2");
     if (!by_zenith && !table.has("population"))
         table.require("zenith_cd_m2", "cd/m2 at the zenith over its centre, or population in its place");
-    table.number("zenith_cd_m2", city.zenith_cd_m2, {0.0, kMostZenith_cd_m2, "cd/m2", true});
-    const Value* population = table.number("population", city.population, {0.0, 1e8, {}, true});
+    std::optional<double> zenith_cd_m2, heads;
+    table.number("zenith_cd_m2", zenith_cd_m2, {0.0, kMostZenith_cd_m2, "cd/m2", true});
+    city.zenith_cd_m2 = zenith_cd_m2.value_or(0.0);
+    const Value* population = table.number("population", heads, {0.0, 1e8, {}, true});
     if (population == nullptr) return;
+    city.population = *heads;
     if (by_zenith)
         table.error(*population, "population", "stands beside zenith_cd_m2; only one of them may be given");
     const double heads_per_km2 = city.population / (std::numbers::pi * city.radius_km * city.radius_km);
@@ -71,8 +75,7 @@ void read_cities(TableReader& night, ErrorList& errors, std::vector<City>& citie
 }  // namespace
 
 void read_night(TableReader table, ErrorList& errors, Night& night) {
-    std::size_t index = 0;
-    if (table.choice("model", index, kModelNames) != nullptr) night.model = static_cast<NightModel>(index);
+    table.choice("model", night.model, kModelNames);
     table.boolean("airglow", night.airglow);
     table.boolean("zodiacal", night.zodiacal);
     table.boolean("starlight", night.starlight);

@@ -54,20 +54,17 @@ void read_order(TableReader& table, std::vector<Thinning>& order) {
 
 void read_daemon(TableReader& table, Daemon& daemon) {
     table.number("rate_hz", daemon.rate_hz, {1.0, 240.0, "Hz"});
-    std::size_t index = 0;
-    if (table.choice("pace", index, kPacingNames) != nullptr) daemon.pacing = static_cast<Pacing>(index);
-    double wait_ms = 0.0;
-    const Value* wait = table.number("host_wait_ms", wait_ms, {0.1, 1000.0, "ms"});
-    if (wait != nullptr) daemon.host_wait_ms = wait_ms;
-    const Value* behind = table.integer("host_frames_behind", daemon.host_frames_behind, 0, 2, "frames");
-    if (daemon.pacing != Pacing::kHost) {
-        constexpr std::string_view kOnlyHost = "is of no use unless pace is \"host\"";
-        if (wait != nullptr) table.error(*wait, "host_wait_ms", std::string(kOnlyHost));
-        if (behind != nullptr) table.error(*behind, "host_frames_behind", std::string(kOnlyHost));
+    table.choice("pace", daemon.pacing, kPacingNames);
+    if (daemon.pacing == Pacing::kHost) {
+        table.number("host_wait_ms", daemon.host_wait_ms, {0.1, 1000.0, "ms"});
+        table.integer("host_frames_behind", daemon.host_frames_behind, 0, 2, "frames");
+    } else {
+        for (const std::string_view key : {"host_wait_ms", "host_frames_behind"}) {
+            if (const Value* value = table.any(key); value != nullptr)
+                table.error(*value, key, "is of no use unless pace is \"host\"");
+        }
     }
-    double delay_ms = 0.0;
-    if (table.number("display_delay_ms", delay_ms, {0.0, 500.0, "ms"}) != nullptr)
-        daemon.display_delay_ms = delay_ms;
+    table.number("display_delay_ms", daemon.display_delay_ms, {0.0, 500.0, "ms"});
     table.finish();
 }
 
@@ -85,6 +82,10 @@ void check_pacing(TableReader& daemon, const Config& config) {
 
 void read_overload(TableReader table, Overload& overload) {
     read_order(table, overload.order);
+    std::vector<std::string> order;
+    for (const Thinning thinning : overload.order)
+        order.emplace_back(kThinningNames[static_cast<std::size_t>(thinning)]);
+    table.describe("order", fmt::format("list of {}", all_thinnings()), to_toml(order));
     table.number("thin_above_pct", overload.thin_above_pct, {10.0, 200.0, "%"});
     table.integer("thin_after_frames", overload.thin_after_frames, 1, 10'000, "frames");
     const Value* below = table.number("return_below_pct", overload.return_below_pct, {5.0, 200.0, "%"});

@@ -42,6 +42,7 @@ void read_utc(TableReader& table, std::optional<UtcDateTime>& utc) {
 
 void read_start(TableReader table, Start& start) {
     read_utc(table, start.utc);
+    table.describe("utc", "years 1900..2100, \"now\"", start.utc ? to_toml(*start.utc) : to_toml("now"));
     table.boolean("running", start.running);
     table.number("latitude_deg", start.latitude_deg, {-90.0, 90.0, "degrees"});
     table.number("longitude_deg", start.longitude_deg, {-180.0, 180.0, "degrees"});
@@ -53,9 +54,7 @@ void read_start(TableReader table, Start& start) {
 }
 
 void read_ephemeris(TableReader table, Ephemeris& ephemeris) {
-    std::size_t index = 0;
-    if (table.choice("model", index, kModelNames) != nullptr)
-        ephemeris.model = static_cast<EphemerisModel>(index);
+    table.choice("model", ephemeris.model, kModelNames);
     const Value* value = table.text("earth_orientation", ephemeris.earth_orientation);
     if (value != nullptr && ephemeris.earth_orientation.empty())
         table.error(*value, "earth_orientation", "is empty; it must name a file, or be left out");
@@ -64,17 +63,14 @@ void read_ephemeris(TableReader table, Ephemeris& ephemeris) {
 
 void read_quality(TableReader table, Quality& quality) {
     const Value* codes = table.number("error_codes", quality.error_codes, {0.1, 8.0, "display codes"});
-    double pct = 0.0;
-    const Value* percent = table.number("error_pct", pct, {0.17, 13.0, "%"});
-    if (percent != nullptr) quality.error_pct = pct;
+    const Value* percent = table.number("error_pct", quality.error_pct, {0.17, 13.0, "%"});
     if (codes != nullptr && percent != nullptr)
         table.error(*percent, "error_pct", "stands beside error_codes; give one of them");
     table.finish();
 }
 
 void read_output(TableReader table, Output& output) {
-    std::size_t index = 0;
-    if (table.choice("kind", index, kOutputNames) != nullptr) output.kind = static_cast<OutputKind>(index);
+    table.choice("kind", output.kind, kOutputNames);
     table.boolean("vsync", output.vsync);
     table.finish();
 }
@@ -126,11 +122,8 @@ void read_air(TableReader table, Air& air) {
 }
 
 void read_ground(TableReader table, Ground& ground) {
-    std::size_t index = 0;
-    if (table.choice("surface", index, kSurfaceNames) != nullptr)
-        ground.surface = static_cast<Surface>(index);
-    double albedo = 0.0;
-    if (table.number("albedo", albedo, {0.0, 1.0, {}}) != nullptr) ground.albedo = albedo;
+    table.choice("surface", ground.surface, kSurfaceNames);
+    table.number("albedo", ground.albedo, {0.0, 1.0, {}});
     table.number("snow_pct", ground.snow_pct, {0.0, 100.0, "%"});
     table.finish();
 }

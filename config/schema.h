@@ -33,6 +33,9 @@ void read_sky(TableReader table, Sky& sky);
 /// Reads [night] with its cities.
 void read_night(TableReader table, ErrorList& errors, Night& night);
 
+/// Reads a [[weather.sheet]] with its textures, whose images are meant from where the settings stand.
+void read_weather_sheet(TableReader& table, ErrorList& errors, WeatherSheet& sheet);
+
 /// Reads [weather], whose preset stands in `weather` already, and its keyframes.
 void read_weather(TableReader table, ErrorList& errors, Weather& weather);
 void read_keyframes(TableReader table, Keyframes& keyframes);

@@ -9,26 +9,19 @@ constexpr std::array<std::string_view, 6> kModelNames{"multi", "single",   "dayc
                                                       "cie",   "preetham", "windlight"};
 constexpr std::array<std::string_view, 2> kZenithNames{"printed", "multi"};
 
-void optional_number(TableReader& table, std::string_view key, std::optional<double>& out,
-                     const Range& range) {
-    double read = 0.0;
-    if (table.number(key, read, range) != nullptr) out = read;
-}
-
 void read_colour(TableReader& table, std::string_view key, std::array<double, 3>& out) {
     table.numbers(key, out, {0.0, 10.0, {}}, "three numbers: [red, green, blue]");
 }
 
 void read_cie(TableReader table, CieSky& cie) {
     table.integer("type", cie.type, 1, 16);
-    optional_number(table, "zenith_luminance_cd_m2", cie.zenith_luminance_cd_m2, {0.0, 1e6, "cd/m2"});
+    table.number("zenith_luminance_cd_m2", cie.zenith_luminance_cd_m2, {0.0, 1e6, "cd/m2"});
     table.finish();
 }
 
 void read_preetham(TableReader table, PreethamSky& preetham) {
-    optional_number(table, "turbidity", preetham.turbidity, {2.0, 10.0, {}});
-    std::size_t index = 0;
-    if (table.choice("zenith", index, kZenithNames) != nullptr) preetham.zenith_of_multi = index == 1;
+    table.number("turbidity", preetham.turbidity, {2.0, 10.0, {}});
+    table.choice("zenith", preetham.zenith_of_multi, kZenithNames);
     table.finish();
 }
 
@@ -46,7 +39,7 @@ void read_windlight(TableReader table, WindlightSky& look) {
     table.number("glow_power", look.glow_power, {-3.0, 0.0, {}});
     table.number("horizon_drop", look.horizon_drop, {0.0, 0.5, {}});
     table.number("unit_cd_m2", look.unit_cd_m2, {0.0, 1e6, "cd/m2"});
-    optional_number(table, "sun_angle_deg", look.sun_angle_deg, {-360.0, 360.0, "degrees"});
+    table.number("sun_angle_deg", look.sun_angle_deg, {-360.0, 360.0, "degrees"});
     table.number("east_angle_deg", look.east_angle_deg, {-360.0, 360.0, "degrees"});
     table.finish();
 }
@@ -64,8 +57,7 @@ void read_sky(TableReader table, Sky& sky) {
     table.boolean("stars", sky.stars);
     table.number("star_intensity_pct", sky.star_intensity_pct, {0.0, 100.0, "%"});
     table.boolean("star_scintillation", sky.star_scintillation);
-    std::size_t index = 0;
-    if (table.choice("model", index, kModelNames) != nullptr) sky.model = static_cast<SkyModel>(index);
+    table.choice("model", sky.model, kModelNames);
     read_day_cycle(table.table("daycycle"), sky.day_cycle);
     read_cie(table.table("cie"), sky.cie);
     read_preetham(table.table("preetham"), sky.preetham);

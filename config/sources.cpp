@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "config/schema.h"
@@ -50,18 +51,26 @@ void read_allowed(TableReader& table, std::vector<UdpAddress>& allow) {
                    return good;
                });
     if (!read.empty()) allow = std::move(read);
+    std::vector<std::string> texts;
+    for (const UdpAddress& address : allow)
+        texts.push_back(address.port == 0 ? address.address
+                                          : fmt::format("{}:{}", address.address, address.port));
+    table.describe("allow", R"(list of "IPv4" or "IPv4:port")", to_toml(texts));
 }
 
 /// Whether it is there and right.
 bool read_listen(TableReader& table, UdpAddress& listen, std::string_view example = "127.0.0.1:8004") {
     std::string text;
     const Value* value = table.text("listen", text);
-    if (value == nullptr) return false;
-    if (parse_udp_address(text, listen)) return true;
-    table.error(
-        *value, "listen",
-        fmt::format("is \"{}\"; it must be an IPv4 address and a port, such as \"{}\"", text, example));
-    return false;
+    const bool good = value != nullptr && parse_udp_address(text, listen);
+    if (value != nullptr && !good) {
+        table.error(
+            *value, "listen",
+            fmt::format("is \"{}\"; it must be an IPv4 address and a port, such as \"{}\"", text, example));
+    }
+    table.describe("listen", "\"IPv4:port\"",
+                   listen.address.empty() ? std::nullopt : std::optional(to_toml(listen)));
+    return good;
 }
 
 void read_rights(TableReader& table, Rights& rights) {
@@ -76,6 +85,10 @@ void read_rights(TableReader& table, Rights& rights) {
                    return true;
                });
     if (listed) rights.owns = owns;
+    std::vector<std::string> owned;
+    for (std::size_t i = 0; i < kAspectCount; ++i)
+        if (rights.owns.test(i)) owned.emplace_back(kAspectNames[i]);
+    table.describe("owns", R"(list of "control", "ownship", "time", "weather", "views")", to_toml(owned));
     table.integer("priority", rights.priority, 0, 100);
     table.number("stale_after_s", rights.stale_after_s, {0.05, 3600.0, "s"});
     table.number("lost_after_s", rights.lost_after_s, {0.1, 3600.0, "s"});
@@ -84,23 +97,24 @@ void read_rights(TableReader& table, Rights& rights) {
 void read_reply_to(TableReader& table, std::optional<UdpAddress>& reply_to) {
     std::string text;
     const Value* value = table.text("reply_to", text);
-    if (value == nullptr) return;
     UdpAddress address;
     if (text == "sender") {
         reply_to.reset();
     } else if (parse_udp_address(text, address) && address.port != 0) {
         reply_to = address;
-    } else {
+    } else if (value != nullptr) {
         table.error(
             *value, "reply_to",
             fmt::format("is \"{}\"; it must be \"sender\", or an IPv4 address and a port from 1, such as "
                         "\"127.0.0.1:8005\"",
                         text));
     }
+    table.describe("reply_to", R"("IPv4:port", "sender")", reply_to ? to_toml(*reply_to) : to_toml("sender"));
 }
 
 void read_identifiers(TableReader& table, ErrorList& errors, std::map<std::string, int>& identifiers) {
     const Value* value = table.any("identifiers");
+    table.describe("identifiers", fmt::format("table of parameter = 0..{}", kLargestIdentifier), {});
     if (value == nullptr) return;
     const auto* moved = std::get_if<Table>(&value->data);
     if (moved == nullptr) {
@@ -117,6 +131,12 @@ void read_identifiers(TableReader& table, ErrorList& errors, std::map<std::strin
         }
         identifiers[entry.key] = static_cast<int>(*number);
     }
+    std::string moves;
+    for (const auto& [parameter, identifier] : identifiers)
+        fmt::format_to(std::back_inserter(moves), "{}{} = {}", moves.empty() ? "" : ", ", to_toml(parameter),
+                       identifier);
+    table.describe("identifiers", fmt::format("table of parameter = 0..{}", kLargestIdentifier),
+                   fmt::format("{{{}}}", moves));
 }
 
 void read_can(TableReader& table, ErrorList& errors, Source& source) {
@@ -163,10 +183,8 @@ void read_source(TableReader& table, ErrorList& errors, Source& source) {
                     fmt::format("is \"{}\"; it must be 1..32 of letters, digits, '-' and '_'", source.name));
     }
     table.require("name", "a short text such as \"instructor\"");
-    std::size_t kind = 0;
-    table.choice("kind", kind, kSourceKindNames);
+    table.choice("kind", source.kind, kSourceKindNames);
     table.require("kind", R"(one of "cigi", "canaerospace", "fgnetfdm")");
-    source.kind = static_cast<SourceKind>(kind);
     source.rights.owns = owned_by_default(source.kind);
     read_rights(table, source.rights);
     check_owned(table, source);
@@ -216,10 +234,9 @@ void read_host(TableReader& table, Host& host) {
     read_listen(table, host.listen);
     read_reply_to(table, host.reply_to);
     read_allowed(table, host.allow);
-    std::size_t index = 0;
-    if (table.choice("cigi", index, kVersionNames) != nullptr) host.cigi = kVersions[index];
-    if (table.choice("database", index, kDatabaseNames) != nullptr)
-        host.database = static_cast<DatabasePolicy>(index);
+    std::size_t version = host.cigi.major == 4 ? 1 : 0;
+    if (table.choice("cigi", version, kVersionNames) != nullptr) host.cigi = kVersions[version];
+    table.choice("database", host.database, kDatabaseNames);
     read_rights(table, host.rights);
     table.finish();
 }

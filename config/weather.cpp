@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 
 #include "config/schema.h"
 
@@ -21,13 +20,13 @@ bool read_length(TableReader& table, std::string_view metres, std::string_view f
                  double& out_m, bool above_least = false) {
     const bool both = table.has(metres) && table.has(feet);
     const bool told = table.has(metres) || table.has(feet);
-    table.number(metres, out_m, {least_m, kMostHeight_m, "m", above_least});
-    double read_ft = 0.0;
+    std::optional<double> read_m, read_ft;
+    table.number(metres, read_m, {least_m, kMostHeight_m, "m", above_least});
     const Value* value = table.number(
         feet, read_ft, {least_m / kMetresPerFoot, kMostHeight_m / kMetresPerFoot, "ft", above_least});
     if (value != nullptr && both)
         table.error(*value, feet, fmt::format("stands beside {}; only one of them may be given", metres));
-    if (value != nullptr) out_m = read_ft * kMetresPerFoot;
+    out_m = read_ft ? *read_ft * kMetresPerFoot : read_m.value_or(out_m);
     return told;
 }
 
@@ -57,84 +56,59 @@ void read_extent(TableReader& table, WeatherLayer& layer) {
 }
 
 void read_amount(TableReader& table, WeatherLayer& layer) {
-    double read = 0.0;
-    const Value* oktas = table.number("coverage_oktas", read, {0.0, 8.0, "oktas"});
-    if (oktas != nullptr) layer.coverage = read / 8.0;
-    const Value* percent = table.number("coverage_pct", read, {0.0, 100.0, "%"});
-    if (percent != nullptr) layer.coverage = read / 100.0;
+    std::optional<double> in_oktas, in_pct;
+    const Value* oktas = table.number("coverage_oktas", in_oktas, {0.0, 8.0, "oktas"});
+    if (in_oktas) layer.coverage = *in_oktas / 8.0;
+    const Value* percent = table.number("coverage_pct", in_pct, {0.0, 100.0, "%"});
+    if (in_pct) layer.coverage = *in_pct / 100.0;
     if (oktas != nullptr && percent != nullptr)
         table.error(*percent, "coverage_pct", "stands beside coverage_oktas; only one of them may be given");
-    table.number("visibility_m", layer.visibility_m, {5.0, 400'000.0, "m"});
+    std::optional<double> visibility_m;
+    table.number("visibility_m", visibility_m, {5.0, 400'000.0, "m"});
+    layer.visibility_m = visibility_m.value_or(layer.visibility_m);
     if (!is_cloud(layer.type) && !falls(layer.type))
         table.require("visibility_m", "how far one sees inside it, 5..400000 m");
     table.integer("severity", layer.severity, 0, 5);
-    const Value* rate = table.number("rate_mm_h", layer.rate_mm_h, {0.0, 300.0, "mm/h", true});
-    if (rate != nullptr && !falls(layer.type))
+    if (falls(layer.type)) {
+        std::optional<double> rate_mm_h;
+        table.number("rate_mm_h", rate_mm_h, {0.0, 300.0, "mm/h", true});
+        layer.rate_mm_h = rate_mm_h.value_or(layer.rate_mm_h);
+    } else if (const Value* rate = table.any("rate_mm_h"); rate != nullptr) {
         table.error(*rate, "rate_mm_h", "is of what falls alone: drizzle, rain, snow, sleet, hail");
+    }
 }
 
 void read_cloud_extras(TableReader& table, WeatherLayer& layer) {
-    const auto cloud_only = [&](const Value* value, std::string_view key) {
-        if (value != nullptr && !is_cloud(layer.type)) table.error(*value, key, "is of clouds alone");
-    };
-    cloud_only(table.number("scud_pct", layer.bottom_scud_pct, {0.0, 100.0, "%"}), "scud_pct");
-    cloud_only(table.number("top_scud_pct", layer.top_scud_pct, {0.0, 100.0, "%"}), "top_scud_pct");
-    cloud_only(table.boolean("lightning", layer.lightning), "lightning");
+    if (is_cloud(layer.type)) {
+        table.number("scud_pct", layer.bottom_scud_pct, {0.0, 100.0, "%"});
+        table.number("top_scud_pct", layer.top_scud_pct, {0.0, 100.0, "%"});
+        table.boolean("lightning", layer.lightning);
+        return;
+    }
+    for (const std::string_view key : {"scud_pct", "top_scud_pct", "lightning"}) {
+        if (const Value* value = table.any(key); value != nullptr)
+            table.error(*value, key, "is of clouds alone");
+    }
 }
 
 void read_layer(TableReader& table, WeatherLayer& layer) {
-    std::size_t index = 0;
     table.require("type", "what it is: \"cumulus\", \"stratus\", \"fog\", \"rain\" ...");
-    const bool known = table.choice("type", index, kLayerTypeNames) != nullptr;
-    if (known) layer.type = static_cast<LayerType>(index);
-    int id = 0;
-    if (const Value* value = table.integer("id", id, 1, 255)) {
-        layer.id = id;
+    table.choice("type", layer.type, kLayerTypeNames);
+    if (const Value* value = table.integer("id", layer.id, 1, 255)) {
         if (!is_cloud(layer.type)) table.error(*value, "id", "is of clouds alone");
-        if (id > 3 && id < 14)
+        if (layer.id > 3 && layer.id < 14)
             table.error(*value, "id",
-                        fmt::format("is {}, that of another type; it must be 1..3 or 14..255", id));
+                        fmt::format("is {}, that of another type; it must be 1..3 or 14..255", *layer.id));
     }
     read_extent(table, layer);
     read_amount(table, layer);
     read_cloud_extras(table, layer);
-    double wind = 0.0;
-    if (table.number("wind_m_s", wind, {0.0, 150.0, "m/s"}) != nullptr) layer.wind_m_s = wind;
-    const Value* from = table.number("wind_from_deg", layer.wind_from_deg, {-360.0, 360.0, "degrees"});
+    table.number("wind_m_s", layer.wind_m_s, {0.0, 150.0, "m/s"});
+    std::optional<double> from_deg;
+    const Value* from = table.number("wind_from_deg", from_deg, {-360.0, 360.0, "degrees"});
+    layer.wind_from_deg = from_deg.value_or(layer.wind_from_deg);
     if (from != nullptr && !table.has("wind_m_s"))
         table.error(*from, "wind_from_deg", "stands without wind_m_s; give both or none");
-}
-
-using ReadItem = std::function<void(TableReader& item)>;
-
-/// The tables of a list such as [[weather.layer]], each finished after `read`.
-/// \param list_path  "weather.layer", for errors
-/// \param there  how many of `most` the preset has taken
-void read_tables(TableReader& owner, ErrorList& errors, std::string_view key, std::string_view list_path,
-                 std::size_t there, std::size_t most, const ReadItem& read) {
-    const Value* value = owner.any(key);
-    if (value == nullptr) return;
-    const auto* list = std::get_if<Array>(&value->data);
-    if (list == nullptr) {
-        owner.error(*value, key, fmt::format("must be tables: write [[{}]] in double brackets", list_path));
-        return;
-    }
-    if (const std::size_t count = there + list->items.size(); count > most) {
-        const std::string_view whose = there > 0 ? " with the preset's" : "";
-        owner.error(*value, key, fmt::format("makes {}{}; at most {}", count, whose, most));
-        return;
-    }
-    int number = 0;
-    for (const Value& item : list->items) {
-        const auto* table = std::get_if<Table>(&item.data);
-        if (table == nullptr) {
-            owner.error(item, key, fmt::format("holds {}; write [[{}]] tables", type_name(item), list_path));
-            continue;
-        }
-        TableReader reader(errors, table, item.place, fmt::format("{}[{}]", owner.key_path(key), ++number));
-        read(reader);
-        reader.finish();
-    }
 }
 
 void read_layers(TableReader& owner, ErrorList& errors, std::string_view list_path,
@@ -155,8 +129,7 @@ void read_shape(TableReader& table, WeatherArea& area) {
 }
 
 void read_area(TableReader& table, ErrorList& errors, WeatherArea& area) {
-    int id = 0;
-    if (table.integer("id", id, 1, 65535) != nullptr) area.id = id;
+    table.integer("id", area.id, 1, 65535);
     table.require("latitude_deg", "where its middle is, -90..90");
     table.number("latitude_deg", area.latitude_deg, {-90.0, 90.0, "degrees"});
     table.require("longitude_deg", "where its middle is, -180..180");
@@ -193,12 +166,11 @@ void read_weather(TableReader table, ErrorList& errors, Weather& weather) {
         table.error(*metar, "metar", "stands beside preset; give one of them");
     table.number("elevation_m", weather.elevation_m, {-500.0, 9000.0, "m"});
     table.number("transition_s", weather.transition_s, {0.0, 600.0, "s"});
-    std::size_t index = 0;
-    if (table.choice("clouds", index, kCloudModelNames) != nullptr)
-        weather.clouds = static_cast<CloudModel>(index);
-    if (table.choice("driver", index, kDriverNames) != nullptr)
-        weather.driver = static_cast<WeatherDriver>(index);
+    table.choice("clouds", weather.clouds, kCloudModelNames);
+    table.choice("driver", weather.driver, kDriverNames);
     read_keyframes(table.table("keyframes"), weather.keyframes);
+    read_tables(table, errors, "sheet", "weather.sheet", weather.sheets.size(), kMaxWeatherSheets,
+                [&](TableReader& item) { read_weather_sheet(item, errors, weather.sheets.emplace_back()); });
     read_layers(table, errors, "weather.layer", weather.layers);
     read_areas(table, errors, weather.areas);
     table.finish();

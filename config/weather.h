@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,10 @@
 #include "config/keyframes.h"
 
 namespace skyig::config {
+
+namespace warp {
+struct GreyMap;
+}
 
 /// Key "type" of a layer.
 enum class LayerType : std::uint8_t {
@@ -107,6 +112,42 @@ struct WeatherArea {
 
 inline constexpr std::size_t kMaxWeatherAreas = 32;
 
+/// Key "noise" of a texture.
+enum class CloudNoise : std::uint8_t { kPuffs, kSmooth, kCells, kFibres };
+
+/// One [[weather.sheet.texture]]: something that repeats over the ground.
+struct WeatherTexture {
+    /// In place of noise: square, a power of two from 16 to 2048 pixels wide, without a seam.
+    std::shared_ptr<const warp::GreyMap> image;
+    CloudNoise noise = CloudNoise::kSmooth;
+    /// After which it repeats; shown as the nearest whole part of kTexturesRepeat_m.
+    double size_m = 16384.0;
+    double weight = 1.0;
+    /// In addition to the layer's wind.
+    double scroll_m_s = 0.0;
+    double scroll_from_deg = 0.0;
+};
+
+/// After so much all textures repeat.
+inline constexpr double kTexturesRepeat_m = 131'072.0;
+inline constexpr std::size_t kMaxWeatherTextures = 3;
+
+/// One [[weather.sheet]]: how clouds of a type look that are drawn as sheets. A later one of the same type
+/// takes the place of an earlier one.
+struct WeatherSheet {
+    LayerType type = LayerType::kCirrus;
+    /// Added to the textures' sum, besides what the layer's coverage adds.
+    double density_offset = 0.0;
+    /// How strongly cloud towards the light dims it; 1 as measured on slabs.
+    double self_shadow = 1.0;
+    /// Times its light, linear Rec.709.
+    std::array<double, 3> colour{1.0, 1.0, 1.0};
+    /// 1..kMaxWeatherTextures
+    std::vector<WeatherTexture> textures;
+};
+
+inline constexpr std::size_t kMaxWeatherSheets = 10;
+
 /// How clouds are drawn: "auto" leaves it to the plan.
 enum class CloudModel : std::uint8_t { kAuto, kLayer, kImpostor, kVolume };
 
@@ -127,6 +168,8 @@ struct Weather {
     Keyframes keyframes;
     /// At most kMaxWeatherLayers, those of the preset first.
     std::vector<WeatherLayer> layers;
+    /// At most kMaxWeatherSheets, those of the preset first.
+    std::vector<WeatherSheet> sheets;
     /// At most kMaxWeatherAreas, those of the preset first.
     std::vector<WeatherArea> areas;
 };

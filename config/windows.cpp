@@ -6,6 +6,23 @@
 namespace skyig::config {
 namespace {
 
+/// On the desktop; a window that covers a monitor has none of its own.
+void read_place(TableReader& table, bool covers_monitor, Window& window) {
+    if (covers_monitor) {
+        for (const std::string_view key : {"x_px", "y_px", "width_px", "height_px", "frame"}) {
+            if (const Value* value = table.any(key); value != nullptr)
+                table.error(*value, key,
+                            "stands beside monitor, which the window covers whole; give one of them");
+        }
+        return;
+    }
+    table.integer("x_px", window.x_px, -kMaxDesktop_px, kMaxDesktop_px, "pixels");
+    table.integer("y_px", window.y_px, -kMaxDesktop_px, kMaxDesktop_px, "pixels");
+    table.integer("width_px", window.width_px, 1, kMaxChannelSize_px, "pixels");
+    table.integer("height_px", window.height_px, 1, kMaxChannelSize_px, "pixels");
+    table.boolean("frame", window.frame);
+}
+
 void read_window(TableReader& table, Window& window) {
     const Value* name = table.text("name", window.name);
     table.require("name", "a short text such as \"left\"");
@@ -17,16 +34,7 @@ void read_window(TableReader& table, Window& window) {
     if (monitor != nullptr && window.monitor.empty())
         table.error(*monitor, "monitor",
                     "is empty; it must be a monitor's name or number, or be left out for a window");
-    for (const std::string_view key : {"x_px", "y_px", "width_px", "height_px", "frame"}) {
-        if (const Value* value = table.any(key); value != nullptr && monitor != nullptr)
-            table.error(*value, key,
-                        "stands beside monitor, which the window covers whole; give one of them");
-    }
-    table.integer("x_px", window.x_px, -kMaxDesktop_px, kMaxDesktop_px, "pixels");
-    table.integer("y_px", window.y_px, -kMaxDesktop_px, kMaxDesktop_px, "pixels");
-    table.integer("width_px", window.width_px, 1, kMaxChannelSize_px, "pixels");
-    table.integer("height_px", window.height_px, 1, kMaxChannelSize_px, "pixels");
-    table.boolean("frame", window.frame);
+    read_place(table, monitor != nullptr, window);
     table.finish();
 }
 
@@ -106,8 +114,11 @@ void read_viewport(TableReader& table, ErrorList& errors, const std::vector<Wind
     view.window = static_cast<int>(index);
     own.integer("x_px", view.x_px, 0, kMaxDesktop_px, "pixels");
     own.integer("y_px", view.y_px, 0, kMaxDesktop_px, "pixels");
-    own.integer("width_px", view.width_px, 1, kMaxChannelSize_px, "pixels");
-    own.integer("height_px", view.height_px, 1, kMaxChannelSize_px, "pixels");
+    std::optional<int> width_px, height_px;
+    own.integer("width_px", width_px, 1, kMaxChannelSize_px, "pixels");
+    own.integer("height_px", height_px, 1, kMaxChannelSize_px, "pixels");
+    view.width_px = width_px.value_or(view.width_px);
+    view.height_px = height_px.value_or(view.height_px);
     if (names.empty()) return;
     own.finish();
     channel.viewport = view;

@@ -33,8 +33,10 @@ constexpr std::string_view kPatchesToo =
 
 CloudModel drawn_as(const Weather& weather, std::size_t layer) noexcept {
     const CloudLayer& cloud = weather.clouds[layer];
-    if (cloud.model == CloudModel::kAuto)
-        return cloud::field::genus_of(cloud.genus).ice ? CloudModel::kLayer : CloudModel::kVolume;
+    if (cloud.model == CloudModel::kAuto) {
+        const bool sheet = cloud.look.has_value() || cloud::field::genus_of(cloud.genus).ice;
+        return sheet ? CloudModel::kLayer : CloudModel::kVolume;
+    }
     if (cloud.model != CloudModel::kImpostor) return cloud.model;
     const auto before =
         std::count_if(weather.clouds.begin(), weather.clouds.begin() + static_cast<std::ptrdiff_t>(layer),

@@ -12,7 +12,8 @@ namespace skyig::render {
 /// Layers of model impostor that are kept at a time, each with some 110 MB of particles and pictures.
 inline constexpr std::size_t kMostImpostorLayers = 2;
 
-/// Never kAuto: that is kVolume, and kLayer for ice clouds, which are thin. Beyond the first
+/// Never kAuto: that is kVolume, and kLayer for ice clouds, which are thin, and where there is a look.
+/// Beyond the first
 /// kMostImpostorLayers of them impostors are drawn as volumes. \param layer  index into weather.clouds
 [[nodiscard]] CloudModel drawn_as(const Weather& weather, std::size_t layer) noexcept;
 

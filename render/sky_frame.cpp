@@ -200,9 +200,11 @@ void SkyFrame::adapt(const Scene& scene) {
         }
         if (!seen.empty()) all = seen;
     }
-    const double wanted_cd_m2 = eye.fixed_adaptation_cd_m2 > 0.0              ? eye.fixed_adaptation_cd_m2
-                                : eye.adapt_to == AdaptationSource::kViewMean ? all.mean_cd_m2()
-                                                                              : all.log_average_cd_m2();
+    double wanted_cd_m2 =
+        eye.adapt_to == AdaptationSource::kViewMean ? all.mean_cd_m2() : all.log_average_cd_m2();
+    if (eye.adapt_to == AdaptationSource::kSky)
+        wanted_cd_m2 = eye::adaptation_to_bright(eye, wanted_cd_m2, eye::bright_part_cd_m2(probes_cd_m2_));
+    if (eye.fixed_adaptation_cd_m2 > 0.0) wanted_cd_m2 = eye.fixed_adaptation_cd_m2;
     adaptation_.update(wanted_cd_m2, scene.time_s, tables_.jumped(), eye);
 }
 

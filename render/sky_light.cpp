@@ -74,12 +74,10 @@ glm::vec3 flash_cd_m2(const SkyLight& light, double elevation_rad, bool ground) 
 
 // Of the sky, in water over ground that is not level everywhere.
 glm::vec3 film_cd_m2(const SkyLight& light, double elevation_rad, double azimuth_rad) {
-    constexpr double kSlopeVariance = 0.01;
     const double up = sine_from_ground(light, light.straight_elevation_rad(elevation_rad));
-    const double mirrored_rad = lifted_mirror_rad(up, kSlopeVariance);
-    // Fresnel's for water (Schlick 1994).
-    const double reflectance = 0.02 + 0.98 * std::pow(1.0 - std::sin(mirrored_rad), 5.0);
-    return static_cast<float>(light.film * reflectance) * passed_from_ground(light, elevation_rad) *
+    const double mirrored_rad = lifted_mirror_rad(up, shaders64::film_slope_variance());
+    return static_cast<float>(light.film * shaders64::film_reflectance(up)) *
+           passed_from_ground(light, elevation_rad) *
            light.covered_rgb_cd_m2(mirrored_rad, azimuth_rad, Side::kSky);
 }
 

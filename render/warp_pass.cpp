@@ -17,7 +17,7 @@ constexpr int kUnit = 8;
 constexpr unsigned kBinding = 0;
 
 // Cells on a side of the mesh that a flat picture is resampled with.
-constexpr int kCells = 64;
+constexpr std::uint32_t kCells = 64;
 constexpr std::size_t kCellIndices = std::size_t{6} * kCells * kCells;
 
 gl::Mesh screen_mesh(const warp::Warp& warp) {
@@ -29,7 +29,7 @@ gl::Mesh screen_mesh(const warp::Warp& warp) {
             vertices.emplace_back(glm::vec2{2.0 * screen - 1.0}, glm::vec2{warp.picture_of(screen)});
             if (row == kCells || column == kCells) continue;
             const std::uint32_t low = row * (kCells + 1) + column;
-            for (const std::uint32_t i : {0, 1, kCells + 1, kCells + 1, 1, kCells + 2})
+            for (const std::uint32_t i : {0U, 1U, kCells + 1, kCells + 1, 1U, kCells + 2})
                 indices.push_back(low + i);
         }
     }
@@ -101,7 +101,7 @@ void WarpPass::bind_flat() const {
 }
 
 void WarpPass::make_resampling() {
-    resampling_.emplace();
+    resampling_.emplace(Resampling{.program = {"warp/resample.vert", "warp/resample.frag"}, .screens = {}});
     for (const Channel& channel : channels_) {
         std::optional<gl::Mesh>& screen = resampling_->screens.emplace_back();
         if (channel.warp) screen.emplace(screen_mesh(*channel.warp));

@@ -43,7 +43,7 @@ class WarpPass {
         gl::UniformBlock block;
     };
     struct Resampling {
-        gl::Program program{"warp/resample.vert", "warp/resample.frag"};
+        gl::Program program;
         std::vector<std::optional<gl::Mesh>> screens;  // by channel
     };
     void make_resampling();

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -45,21 +46,38 @@ struct WeatherArea {
     friend bool operator==(const WeatherArea&, const WeatherArea&) = default;
 };
 
-/// How the model kLayer draws a layer, in the terms of its seed: density is the sum of scrolled tiles of
-/// noise.
+namespace cloud::field {
+class Texture;
+}
+
+/// What a tile of noise looks like from above.
+enum class CloudNoise : std::uint8_t {
+    kPuffs,   ///< heaps of several sizes
+    kSmooth,  ///< Perlin noise, five octaves
+    kCells,   ///< cells of one size, near a grid
+    kFibres,  ///< long threads that wind (domain warp)
+};
+
+/// How a sheet (kLayer, or kAuto) draws a layer, in the terms of its seed: density is the sum of scrolled
+/// tiles of noise or of pictures.
 struct CloudLook {
     struct Tile {
-        /// How many fit along 131,072 m, east; 1..4096. At 1 a tile's finest feature is 3 km, at 32 100 m.
+        /// In place of noise.
+        std::shared_ptr<const cloud::field::Texture> picture{};
+        CloudNoise noise = CloudNoise::kSmooth;
+        /// How many fit along 131,072 m, east; 1..4096. At 1 smooth noise's finest feature is 3 km, at 32
+        /// 100 m.
         int times = 8;
         /// In addition to the layer's drift, by its age, east and north.
         glm::dvec2 scroll_m_s{0.0};
-        /// Of its values about their mean, -0.5..0.5.
+        /// Of its values about their mean, -0.5..0.5: a picture's grey less a half.
         double weight = 1.0;
 
         friend bool operator==(const Tile&, const Tile&) = default;
     };
-    std::array<Tile, 3> tiles{{{2, {}, 0.5}, {8, {}, 1.0}, {32, {}, 0.4}}};
-    /// Added to the sum, besides what the layer's coverage adds; full extinction is reached at a sum of 1.
+    std::array<Tile, 3> tiles{{{.times = 2, .weight = 0.5}, {.times = 8}, {.times = 32, .weight = 0.4}}};
+    /// Added to the sum, besides what the layer's coverage adds; full extinction is reached at a sum of 1. A
+    /// picture alone, of weight 1 and under full coverage, is the density.
     double density_offset = 0.0;
     /// How strongly cloud towards the light dims it; 1 as measured on slabs.
     double self_shadow = 1.0;
@@ -96,7 +114,7 @@ struct CloudLayer {
     std::uint32_t seed = 0;
     /// Everywhere, if none.
     std::optional<WeatherArea> area{};
-    /// Of the model kLayer; as its genus, if none.
+    /// Of a sheet; as its genus, if none. With one kAuto is a sheet.
     std::optional<CloudLook> look;
 
     friend bool operator==(const CloudLayer&, const CloudLayer&) = default;

@@ -21,11 +21,13 @@ class ChannelGuard {
         return false;
     }
     void drawn() noexcept {
-        health_.failed = false;
+        health_.failed = health_.crossed_out = false;
         pause_ = 0;
     }
-    void failed(std::string_view reason) noexcept {
+    /// \param crossed_out  whether its picture will show that
+    void failed(std::string_view reason, bool crossed_out) noexcept {
         health_.failed = true;
+        health_.crossed_out = crossed_out;
         ++health_.failures;
         health_.set_reason(reason);
         wait_ = pause_;

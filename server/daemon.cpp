@@ -21,6 +21,7 @@
 #include "server/frame_loop.h"
 #include "server/from_config.h"
 #include "server/gl_painter.h"
+#include "server/light_files.h"
 #include "server/live_wire.h"
 #include "server/log.h"
 #include "server/pace.h"
@@ -36,6 +37,9 @@ namespace {
 
 /// Frames whose images may be under way at once: enough to bridge a slow file without holding much memory.
 constexpr std::size_t kImageBuffers = 3;
+/// The same of scenes, some 12 kB each: light takes a second renderer's time, a short run has all of its
+/// frames.
+constexpr std::size_t kSceneBuffers = 256;
 
 std::unique_ptr<ImageWriter> open_images(const DaemonOptions& options, const config::Config& config) {
     if (options.out_directory.empty()) return nullptr;
@@ -45,11 +49,21 @@ std::unique_ptr<ImageWriter> open_images(const DaemonOptions& options, const con
         throw std::runtime_error(fmt::format("{}: cannot be made a directory for images: {}",
                                              options.out_directory, error.message()));
     }
+    ImageWriter::Settings settings{.directory = options.out_directory,
+                                   .channels = render_channels(config),
+                                   .buffers = kImageBuffers,
+                                   .extension = options.out_format};
+    if (options.out_format != "png") {
+        settings.buffers = kSceneBuffers;
+        settings.takes = ImageWriter::Takes::kScene;
+        return std::make_unique<ImageWriter>(std::move(settings), light_files(config));
+    }
     return std::make_unique<ImageWriter>(
-        options.out_directory, render_channels(config), kImageBuffers,
-        [gamma = config.display.gamma](const std::string& path, const render::Channel& channel,
-                                       std::span<const std::byte> rgba, std::string& why) {
-            return render::output::write_png(path, channel.width_px, channel.height_px, rgba, why, gamma);
+        std::move(settings),
+        [channels = render_channels(config), gamma = config.display.gamma](
+            const std::string& path, const ImageWriter::Frame& frame, std::size_t i, std::string& why) {
+            return render::output::write_png(path, channels[i].width_px, channels[i].height_px,
+                                             frame.channels[i], why, gamma);
         });
 }
 

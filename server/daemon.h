@@ -1,18 +1,25 @@
 // The daemon put together from its parts, and run.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "config/config.h"
 #include "server/ephemeris/earth_orientation.h"
 
 namespace skyig::server {
 
+/// Pictures as shown, or their light before eye and display. \see LightFiles
+inline constexpr std::array<std::string_view, 3> kOutFormats{"png", "exr", "pfm"};
+
 struct DaemonOptions {
     std::string config_path;
     /// Only check the settings.
     bool check = false;
+    /// Only print the settings that hold.
+    bool print_config = false;
     /// No windows, whatever the settings say.
     bool headless = false;
     /// Test pattern that all channels show at first, one of config::kPatternNames; empty: as the settings
@@ -24,6 +31,8 @@ struct DaemonOptions {
     std::string out_directory;
     /// Every how many frames images are written, at least 1.
     std::uint64_t out_every = 1;
+    /// What images are written as, one of kOutFormats.
+    std::string out_format = "png";
     /// File for the report as JSON; empty = none.
     std::string report_path;
     /// Recording to run instead of listening; empty = none.

@@ -8,7 +8,6 @@ namespace flightgear = protocol::flightgear;
 
 namespace {
 
-constexpr double kRepeatAfter_s = 10.0;
 constexpr double kNsToSeconds = 1e-9;
 constexpr std::int64_t kSecondsPerDay = 86400;
 /// JSBSim on its own sends this, or a count of its steps from 0: no time of day.

@@ -15,7 +15,7 @@ namespace {
 /// Frames that come late are told when they are more than this part of the frames in that time.
 constexpr double kToldLatePart = 0.01;
 constexpr double kWatchFor_s = 10.0;
-constexpr double kRepeatAfter_s = 60.0;
+constexpr double kRemindAfter_s = 60.0;
 
 }  // namespace
 
@@ -91,9 +91,10 @@ bool FrameLoop::run_frame() {
     draw(scene, stopwatch, times);
     const bool wanted = parts_.painter.present();
     if (!wanted) parts_.log.notice("a window was closed: the daemon ends");
+    tell_monitors();
     times.display_ns = stopwatch.lap_ns();
     if (parts_.wire.live()) delays_.shown(parts_.clock.utc_ns(), inbox_.frame_arrivals());
-    hand_out();
+    hand_out(scene);
     times.output_ns = stopwatch.lap_ns();
     if (on_processor_) times.processor_ns = parts_.clock.processor_ns() - processor_before_ns;
     last_end_ns_ = start_ns + times.duration_ns();
@@ -122,8 +123,8 @@ void FrameLoop::take_input(const FramePacer::Slot& slot, status::FrameParts& tim
     parts_.world.advance(static_cast<double>(slot.slots) * parts_.pace.period_s());
 }
 
-void FrameLoop::hand_out() {
-    if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images();
+void FrameLoop::hand_out(const render::Scene& scene) {
+    if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images(scene);
     if (parts_.hashes != nullptr) hash_images();
     if (parts_.preview == nullptr) return;
     parts_.preview->offer(
@@ -151,7 +152,7 @@ void FrameLoop::answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns) {
         return;
     }
     ++start_of_frame_failed_;
-    parts_.log.limited("answer not sent", kRepeatAfter_s, Severity::kWarning,
+    parts_.log.limited("answer not sent", kRemindAfter_s, Severity::kWarning,
                        "Start of Frame to {} not sent: the system did not take it", *destination);
 }
 
@@ -199,13 +200,31 @@ void FrameLoop::tell_channels() {
         told_failed_[channel] = health.failed;
         const std::string& name = config_.channels[channel].name;
         if (health.failed) {
-            parts_.log.limited({"channel failed", channel}, kRepeatAfter_s, Severity::kWarning,
-                               "channel {} cannot be drawn: {}; it is crossed out in red and tried again",
-                               name, health.reason());
+            parts_.log.limited({"channel failed", channel}, kRemindAfter_s, Severity::kWarning,
+                               "channel {} cannot be drawn: {}; {}", name, health.reason(),
+                               health.crossed_out ? "it is crossed out in red and tried again"
+                                                  : "nothing is shown of it until then");
         } else {
-            parts_.log.limited({"channel drawn", channel}, kRepeatAfter_s, Severity::kNotice,
+            parts_.log.limited({"channel drawn", channel}, kRemindAfter_s, Severity::kNotice,
                                "channel {} is drawn again, after {} failures since the start", name,
                                health.failures);
+        }
+    }
+}
+
+void FrameLoop::tell_monitors() {
+    for (std::size_t channel = 0; channel < config_.channels.size(); ++channel) {
+        const bool hidden = parts_.painter.hides(channel);
+        if (hidden == told_hidden_[channel]) continue;
+        told_hidden_[channel] = hidden;
+        const std::string& name = config_.channels[channel].name;
+        if (hidden) {
+            parts_.log.limited({"monitor gone", channel}, kRemindAfter_s, Severity::kWarning,
+                               "channel {} is not shown: its monitor is gone; its window waits for that",
+                               name);
+        } else {
+            parts_.log.limited({"monitor back", channel}, kRemindAfter_s, Severity::kNotice,
+                               "channel {} is shown again: its monitor is back", name);
         }
     }
 }
@@ -226,10 +245,11 @@ void FrameLoop::hash_images() {
     }
 }
 
-void FrameLoop::hand_out_images() {
+void FrameLoop::hand_out_images(const render::Scene& scene) {
     ImageWriter::Frame* images = parts_.images->try_acquire();
     if (images == nullptr) return;
     images->number = frame_number_;
+    if (parts_.images->takes_scenes()) images->scene = scene;
     for (std::size_t channel = 0; channel < images->channels.size(); ++channel)
         parts_.painter.read_back(channel, images->channels[channel]);
     parts_.images->submit(images);
@@ -244,6 +264,7 @@ void FrameLoop::watch(const FramePacer::Slot& slot) {
         ++watched_.late;
     }
     watched_.slots += slot.slots;
+    tell_spacing();
     if (static_cast<double>(watched_.slots) * parts_.pace.period_s() < kWatchFor_s) return;
     tell_late_frames();
     tell_dropped_datagrams();
@@ -257,20 +278,31 @@ void FrameLoop::tell_thinning(Overload::Step step) {
     const Overload::State& state = overload_->state();
     const std::string_view what = config::kThinningNames[static_cast<std::size_t>(state.last_thing)];
     if (step == Overload::Step::kThinned) {
-        parts_.log.limited("thinned", kRepeatAfter_s, Severity::kNotice,
+        parts_.log.limited("thinned", kRemindAfter_s, Severity::kNotice,
                            "leaves out {}: a frame takes {:.1f} of {:.1f} ms", what,
                            state.last_load * parts_.pace.period_s() * 1e3, parts_.pace.period_s() * 1e3);
     } else {
-        parts_.log.limited("returned", kRepeatAfter_s, Severity::kNotice,
+        parts_.log.limited("returned", kRemindAfter_s, Severity::kNotice,
                            "{} is back: a frame takes {:.1f} of {:.1f} ms", what,
                            state.last_load * parts_.pace.period_s() * 1e3, parts_.pace.period_s() * 1e3);
     }
 }
 
+void FrameLoop::tell_spacing() {
+    const std::uint64_t spaced = parts_.pace.spaced();
+    // Single ones are a driver's; a second of them is a display that nobody waits for.
+    if (static_cast<double>(spaced - told_spaced_) < config_.daemon.rate_hz) return;
+    told_spaced_ = spaced;
+    parts_.log.limited("spaced", kRemindAfter_s, Severity::kNotice,
+                       "the windows' swap does not wait for a display: the clock spaces frames at {:g} Hz "
+                       "({} frames since the start)",
+                       config_.daemon.rate_hz, spaced);
+}
+
 void FrameLoop::tell_late_frames() {
     if (static_cast<double>(watched_.late) <= kToldLatePart * static_cast<double>(watched_.frames)) return;
     parts_.log.limited(
-        "late frames", kRepeatAfter_s, Severity::kWarning,
+        "late frames", kRemindAfter_s, Severity::kWarning,
         "{} of the last {} frames were late: {:g} Hz leaves {:.1f} ms, a frame has taken {:.1f} ms (median), "
         "{:.1f} ms (p95) since the start",
         watched_.late, watched_.frames, config_.daemon.rate_hz, parts_.pace.period_s() * 1e3,
@@ -281,14 +313,14 @@ void FrameLoop::tell_what_is_drawn_otherwise() {
     tell_date();
     if (scenes_.weather_left_out() > 0) {
         parts_.log.limited(
-            "weather left out", kRepeatAfter_s, Severity::kWarning,
+            "weather left out", kRemindAfter_s, Severity::kWarning,
             "{} layers of weather are not drawn: there is room for the nearest {} clouds and {} "
             "veils",
             scenes_.weather_left_out(), render::Weather::kMaxClouds, render::Weather::kMaxObscurants);
     }
     if (scenes_.eye_spread_m() > config::kMaxEyeSpread_m) {
         parts_.log.limited(
-            "eye spread", kRepeatAfter_s, Severity::kWarning,
+            "eye spread", kRemindAfter_s, Severity::kWarning,
             "the host has moved a view's eye {:.0f} m from the mean of all, from which all are drawn; "
             "beyond {:g} m use a daemon of its own",
             scenes_.eye_spread_m(), config::kMaxEyeSpread_m);
@@ -310,14 +342,14 @@ void FrameLoop::tell_date() {
 void FrameLoop::tell_dropped_datagrams() {
     const protocol::transport::UdpCounters now = parts_.wire.counters();
     if (now.not_allowed > told_wire_.not_allowed) {
-        parts_.log.limited("sender not allowed", kRepeatAfter_s, Severity::kWarning,
+        parts_.log.limited("sender not allowed", kRemindAfter_s, Severity::kWarning,
                            "{} datagrams dropped: their senders are not in allow",
                            now.not_allowed - told_wire_.not_allowed);
     }
     const std::uint64_t too_many =
         now.ring_full + now.queue_full - told_wire_.ring_full - told_wire_.queue_full;
     if (too_many > 0) {
-        parts_.log.limited("too many datagrams", kRepeatAfter_s, Severity::kWarning,
+        parts_.log.limited("too many datagrams", kRemindAfter_s, Severity::kWarning,
                            "{} datagrams dropped: they came faster than they can be taken", too_many);
     }
     told_wire_ = now;

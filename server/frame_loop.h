@@ -87,16 +87,18 @@ class FrameLoop {
     void answer_host(const FramePacer::Slot& slot, std::int64_t utc_ns);
     void take_input(const FramePacer::Slot& slot, status::FrameParts& times, Stopwatch& stopwatch);
     void draw(const render::Scene& scene, Stopwatch& stopwatch, status::FrameParts& times);
-    void hand_out();
-    void hand_out_images();
+    void hand_out(const render::Scene& scene);
+    void hand_out_images(const render::Scene& scene);
     void tell_host_of_pictures(std::int64_t first_utc_ns, std::int64_t last_utc_ns);
     void close_frame(const FramePacer::Slot& slot, const status::FrameParts& times);
     void tell_thinning(Overload::Step step);
     void tell_resets();
     void tell_channels();
+    void tell_monitors();
     void hash_images();
     void watch(const FramePacer::Slot& slot);
     void tell_late_frames();
+    void tell_spacing();
     void tell_dropped_datagrams();
     void tell_what_is_drawn_otherwise();
     void tell_date();
@@ -144,8 +146,11 @@ class FrameLoop {
     std::vector<std::byte> read_back_;
     /// Channels of which it has been said that they cannot be drawn.
     std::bitset<config::kMaxChannels> told_failed_;
+    /// That their monitors are gone.
+    std::bitset<config::kMaxChannels> told_hidden_;
     /// What has been said of the date, until it is said anew.
     std::uint64_t told_resets_ = 0;
+    std::uint64_t told_spaced_ = 0;
     bool told_clamped_ = false;
     bool told_leap_seconds_ = false;
     protocol::transport::UdpCounters told_wire_;

@@ -93,6 +93,7 @@ void FrameLoop::take_stock(status::Snapshot& snapshot) const {
     snapshot.elapsed_s = static_cast<double>(last_end_ns_ - first_start_ns_) * 1e-9;
     snapshot.late_frames = late_frames_;
     snapshot.slots_left_out = slots_left_out_;
+    snapshot.frames_spaced = parts_.pace.spaced();
     snapshot.record = record_;
     snapshot.input = times_of(times_.input());
     snapshot.shared = times_of(times_.shared());
@@ -101,6 +102,8 @@ void FrameLoop::take_stock(status::Snapshot& snapshot) const {
         snapshot.channels[i] = times_of(times_.channel(i));
     for (std::size_t i = 0; i < config_.channels.size(); ++i)
         snapshot.health[i] = parts_.painter.health(i);
+    for (std::size_t i = 0; i < config_.channels.size(); ++i)
+        snapshot.hidden[i] = parts_.painter.hides(i);
     snapshot.pass_count = parts_.painter.passes(snapshot.passes);
     snapshot.start_of_frame_sent = start_of_frame_sent_;
     snapshot.start_of_frame_failed = start_of_frame_failed_;

@@ -73,12 +73,12 @@ void GlPainter::prepare_seat(const render::Scene& scene) {
 
 void GlPainter::draw(std::size_t channel) {
     if (!seat_ && !guards_[channel].health().failed)
-        guards_[channel].failed("the graphics device is not back after a reset");
+        guards_[channel].failed("the graphics device is not back after a reset", false);
     if (!seat_ || !guards_[channel].try_now()) return;
     try {
         try_to_draw(channel);
     } catch (const std::exception& error) {
-        guards_[channel].failed(error.what());
+        guards_[channel].failed(error.what(), true);
     }
     if (guards_[channel].health().failed) seat_->renderer().cross_out(channel);
 }
@@ -94,7 +94,7 @@ void GlPainter::try_to_draw(std::size_t channel) {
     if (renderer.gl_errors() == errors_before)
         guards_[channel].drawn();
     else
-        guards_[channel].failed("OpenGL reported an error");
+        guards_[channel].failed("OpenGL reported an error", true);
 }
 
 bool GlPainter::present() {

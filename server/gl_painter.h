@@ -34,6 +34,7 @@ class GlPainter final : public Painter {
     void read_back(std::size_t channel, std::span<std::byte> rgba) override;
     /// Of a target of luminance. \see render::Renderer::read_luminance()
     void read_luminance(std::size_t channel, std::span<float> rgb_cd_m2);
+    [[nodiscard]] bool hides(std::size_t channel) const override { return seat_ && seat_->hides(channel); }
     [[nodiscard]] bool rebuilt() const override { return rebuilt_; }
     [[nodiscard]] bool on_processor() const override;
     [[nodiscard]] std::size_t gl_objects() const override;

@@ -34,6 +34,11 @@ class GlSeat {
     /// \return false once nobody wants to see the channels any more
     bool present();
 
+    /// Whether the channel's window waits for its monitor.
+    [[nodiscard]] bool hides(std::size_t channel) const noexcept {
+        return desktop_ && desktop_->hides(channel);
+    }
+
     [[nodiscard]] render::Renderer& renderer() noexcept { return *renderer_; }
     [[nodiscard]] render::gl::ResetWatch& resets() noexcept { return resets_; }
     [[nodiscard]] std::string description() const;

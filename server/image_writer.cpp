@@ -6,23 +6,24 @@
 
 namespace skyig::server {
 
-ImageWriter::ImageWriter(std::string directory, std::vector<render::Channel> channels, std::size_t buffers,
-                         WriteFile write_file)
-    : directory_(std::move(directory)),
-      channels_(std::move(channels)),
-      write_file_(std::move(write_file)),
-      frames_(buffers) {
-    free_.reserve(buffers);
-    queue_.reserve(buffers);
+ImageWriter::ImageWriter(Settings settings, WriteFile write_file)
+    : settings_(std::move(settings)), frames_(settings_.buffers) {
+    free_.reserve(frames_.size());
+    queue_.reserve(frames_.size());
     for (Frame& frame : frames_) {
-        for (const render::Channel& channel : channels_) {
+        free_.push_back(&frame);
+        if (takes_scenes()) continue;
+        for (const render::Channel& channel : settings_.channels) {
             const auto pixels =
                 static_cast<std::size_t>(channel.width_px) * static_cast<std::size_t>(channel.height_px);
             frame.channels.emplace_back(pixels * 4);
         }
-        free_.push_back(&frame);
     }
-    thread_ = std::thread([this] { run(); });
+    // What it holds may be bound to the thread that uses it, as an OpenGL context is.
+    thread_ = std::thread([this, writes = std::move(write_file)]() mutable {
+        const WriteFile write = std::move(writes);
+        run(write);
+    });
 }
 
 ImageWriter::~ImageWriter() {
@@ -67,7 +68,7 @@ std::string ImageWriter::first_error() const {
     return first_error_;
 }
 
-void ImageWriter::run() {
+void ImageWriter::run(const WriteFile& write_file) {
     std::unique_lock lock(mutex_);
     for (;;) {
         wake_.wait(lock, [this] { return finishing_ || !queue_.empty(); });
@@ -75,17 +76,18 @@ void ImageWriter::run() {
         Frame* frame = queue_.front();
         queue_.erase(queue_.begin());
         lock.unlock();
-        write(*frame);
+        write(*frame, write_file);
         lock.lock();
         free_.push_back(frame);
     }
 }
 
-void ImageWriter::write(const Frame& frame) {
-    for (std::size_t i = 0; i < channels_.size(); ++i) {
-        const std::string path = fmt::format("{}/{}_{:06}.png", directory_, channels_[i].name, frame.number);
+void ImageWriter::write(const Frame& frame, const WriteFile& write_file) {
+    for (std::size_t i = 0; i < settings_.channels.size(); ++i) {
+        const std::string path = fmt::format("{}/{}_{:06}.{}", settings_.directory,
+                                             settings_.channels[i].name, frame.number, settings_.extension);
         std::string error;
-        const bool complete = write_file_(path, channels_[i], frame.channels[i], error);
+        const bool complete = write_file(path, frame, i, error);
         const std::lock_guard lock(mutex_);
         if (complete) {
             ++counts_.written;

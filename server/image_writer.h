@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
-#include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "render/channel.h"
+#include "render/scene.h"
 
 namespace skyig::server {
 
@@ -19,14 +19,32 @@ namespace skyig::server {
 /// counted.
 class ImageWriter {
   public:
-    /// Writes one image (RGBA, top row first); false and one line in `error` when it cannot.
-    using WriteFile = std::function<bool(const std::string& path, const render::Channel& channel,
-                                         std::span<const std::byte> rgba, std::string& error)>;
+    /// What the writer is handed of a frame.
+    enum class Takes : std::uint8_t {
+        kPixels,  ///< as they are shown
+        kScene,   ///< what they are drawn of: who writes draws too
+    };
 
-    /// The pixels of all channels of one frame.
     struct Frame {
         std::uint64_t number = 0;
+        /// RGBA, top row first, of each channel; none where scenes are taken.
         std::vector<std::vector<std::byte>> channels;
+        /// Where scenes are taken.
+        render::Scene scene;
+    };
+
+    /// Writes one channel's image; false and one line in `error` when it cannot.
+    using WriteFile = std::function<bool(const std::string& path, const Frame& frame, std::size_t channel,
+                                         std::string& error)>;
+
+    struct Settings {
+        std::string directory;
+        std::vector<render::Channel> channels;
+        /// Frames that may be under way at once, at least 1; allocated at the start.
+        std::size_t buffers = 1;
+        Takes takes = Takes::kPixels;
+        /// Of the files' names.
+        std::string extension = "png";
     };
 
     struct Counts {
@@ -35,10 +53,9 @@ class ImageWriter {
         std::uint64_t skipped = 0;  ///< frames without a free buffer
     };
 
-    /// Files are named directory/CHANNEL_NNNNNN.png after the channel and the frame's number.
-    /// \param buffers  frames that may be under way at once, at least 1; allocated here, once
-    ImageWriter(std::string directory, std::vector<render::Channel> channels, std::size_t buffers,
-                WriteFile write_file);
+    /// Files are named directory/CHANNEL_NNNNNN.extension after the channel and the frame's number.
+    /// \param write_file  called, and destroyed, on the writer's thread alone
+    ImageWriter(Settings settings, WriteFile write_file);
     /// Finishes.
     ~ImageWriter();
     ImageWriter(const ImageWriter&) = delete;
@@ -46,6 +63,7 @@ class ImageWriter {
     ImageWriter(ImageWriter&&) = delete;
     ImageWriter& operator=(ImageWriter&&) = delete;
 
+    [[nodiscard]] bool takes_scenes() const noexcept { return settings_.takes == Takes::kScene; }
     /// A buffer to fill, or null when all are under way (the frame then counts as skipped). Does not block on
     /// I/O.
     [[nodiscard]] Frame* try_acquire();
@@ -59,12 +77,10 @@ class ImageWriter {
     [[nodiscard]] std::string first_error() const;
 
   private:
-    void run();
-    void write(const Frame& frame);
+    void run(const WriteFile& write_file);
+    void write(const Frame& frame, const WriteFile& write_file);
 
-    const std::string directory_;
-    const std::vector<render::Channel> channels_;
-    const WriteFile write_file_;
+    const Settings settings_;
     std::vector<Frame> frames_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;

@@ -10,12 +10,6 @@ namespace skyig::server {
 namespace cigi = protocol::cigi;
 namespace transport = protocol::transport;
 
-namespace {
-
-constexpr double kRepeatAfter_s = 10.0;
-
-}  // namespace
-
 /// Hands the packets of one message to the world and sees what passes by.
 class Inbox::Handler {
   public:

@@ -20,7 +20,6 @@ constexpr std::size_t kMostBytesAFrame = std::size_t{512} << 10U;
 constexpr double kMostOfProcessor = 0.03;
 /// Half a second of a full bus.
 constexpr std::size_t kMostBusFramesAFrame = 4096;
-constexpr double kRepeatAfter_s = 10.0;
 
 template <class T>
 T value_or_throw(protocol::Result<T, std::string> result) {

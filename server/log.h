@@ -20,6 +20,10 @@ namespace skyig::server {
 /// syslog priorities
 enum class Severity { kError = 3, kWarning = 4, kNotice = 5, kInfo = 6, kDebug = 7 };
 
+/// Between two lines of one key, usually. A link that comes and goes, or a host that asks for the impossible
+/// in every message, fills no log.
+inline constexpr double kRepeatAfter_s = 10.0;
+
 /// What a limited line is about: its kind, and which of several it is. The text must be a literal (it is
 /// kept, not copied).
 struct LimitKey {

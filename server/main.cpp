@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "config/config.h"
+#include "config/key_log.h"
+#include "config/reference/effective.h"
 #include "server/bus_input.h"
 #include "server/daemon.h"
 #include "server/from_config.h"
@@ -28,6 +30,8 @@ void declare(CLI::App& app, DaemonOptions& options) {
         ->required()
         ->type_name("FILE");
     app.add_flag("--check", options.check, "check the settings, say all that is wrong, and end");
+    app.add_flag("--print-config", options.print_config,
+                 "print the settings that hold, defaults as comments, and end");
     app.add_flag("--headless", options.headless, "no windows, whatever the settings say");
     app.add_option("--pattern", options.pattern,
                    "show this test pattern in all channels until the host asks for another")
@@ -39,12 +43,17 @@ void declare(CLI::App& app, DaemonOptions& options) {
         ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000'000}))
         ->type_name("N");
     CLI::Option* out =
-        app.add_option("--out", options.out_directory, "write the channels' images here as PNG")
-            ->type_name("DIR");
+        app.add_option("--out", options.out_directory, "write the channels' images here")->type_name("DIR");
     app.add_option("--out-every", options.out_every, "write the images of every N-th frame only (1)")
         ->check(CLI::Range(1, 1'000'000'000))
         ->needs(out)
         ->type_name("N");
+    app.add_option("--out-format", options.out_format,
+                   "what they are: pictures as shown (png), or each pixel's light in cd/m2 (exr, pfm)")
+        ->check(CLI::IsMember(
+            std::vector<std::string>(skyig::server::kOutFormats.begin(), skyig::server::kOutFormats.end())))
+        ->needs(out)
+        ->type_name("NAME");
     app.add_option("--report", options.report_path, "write the report of the run here as JSON")
         ->type_name("FILE");
     CLI::Option* replay = app.add_option("--replay", options.replay_path,
@@ -90,7 +99,9 @@ int run(int argc, char** argv) {
     const std::optional<DaemonOptions> options = read_command_line(argc, argv, exit_status);
     if (!options) return exit_status;
 
-    skyig::config::LoadResult loaded = skyig::config::load_config(options->config_path);
+    skyig::config::KeyLog keys;
+    skyig::config::LoadResult loaded =
+        skyig::config::load_config(options->config_path, options->print_config ? &keys : nullptr);
     for (const skyig::config::ConfigError& error : loaded.errors)
         fmt::print(stderr, "{}\n", skyig::config::to_text(error));
     if (!loaded.config) return kWrongUsage;
@@ -113,6 +124,11 @@ int run(int argc, char** argv) {
     if (const std::string left_out = skyig::server::metar_left_out(*loaded.config, options->config_path);
         !left_out.empty()) {
         fmt::print(stderr, "warning: {}\n", left_out);
+    }
+    if (options->print_config) {
+        fmt::print("# {} as skyigd {} reads it; comments hold what is left out\n{}", options->config_path,
+                   SKYIG_VERSION, skyig::config::reference::effective_text(keys));
+        return kDone;
     }
     if (options->check) {
         fmt::print("{}\n", skyig::config::describe(*loaded.config));

@@ -1,6 +1,7 @@
 // When frames begin, and how far the world moves from one to the next: by a clock, or by a recording.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "server/clock.h"
@@ -23,6 +24,8 @@ class Pace {
     [[nodiscard]] virtual double period_s() const noexcept = 0;
     /// Frames are those of a recording, with what they leave out.
     [[nodiscard]] virtual bool replays() const noexcept { return false; }
+    /// Frames that the clock has spaced where a display should have.
+    [[nodiscard]] virtual std::uint64_t spaced() const noexcept { return 0; }
 };
 
 /// Sleeps on a clock from one slot of the grid to the next, for ever.
@@ -53,8 +56,7 @@ class DisplayPace final : public Pace {
 
     [[nodiscard]] std::optional<FramePacer::Slot> next() override;
     [[nodiscard]] double period_s() const noexcept override { return period_s_; }
-    /// Frames that the clock has spaced, since the swap did not wait.
-    [[nodiscard]] std::uint64_t spaced() const noexcept { return spaced_; }
+    [[nodiscard]] std::uint64_t spaced() const noexcept override { return spaced_; }
 
   private:
     Clock& clock_;

@@ -33,6 +33,8 @@ class Painter {
     virtual void draw(std::size_t channel) = 0;
     /// The drawn channels go where people see them. \return false once nobody wants to see them any more
     virtual bool present() { return true; }
+    /// Whether nobody sees the channel, since its window's monitor is gone; it comes back with that.
+    [[nodiscard]] virtual bool hides(std::size_t /*channel*/) const { return false; }
     /// RGBA, top row first, width * height * 4 bytes.
     virtual void read_back(std::size_t channel, std::span<std::byte> rgba) = 0;
 

@@ -1,3 +1,4 @@
+skyig_compile_alone(flightgear_input.cpp recorder.cpp)
 # The frame loop (no GL) and the daemon (GL).
 skyig_library(server_loop
   SOURCES answers.cpp bus_input.cpp display_pace.cpp flightgear_input.cpp frame_hashes.cpp frame_loop.cpp frame_pacer.cpp frame_status.cpp frame_table.cpp from_config.cpp host_timing.cpp image_writer.cpp inbox.cpp live_wire.cpp lock_step.cpp overlay_text.cpp overload.cpp recorder.cpp replay.cpp
@@ -7,7 +8,9 @@ skyig_library(server_loop
 target_compile_definitions(server_loop PUBLIC SKYIG_VERSION="${PROJECT_VERSION}")
 
 if(SKYIG_GL)
-  skyig_library(server_painter SOURCES gl_painter.cpp gl_seat.cpp window_layouts.cpp DEPS server_loop render render_desktop render_gl)
+  skyig_library(server_painter SOURCES gl_painter.cpp gl_seat.cpp light_files.cpp window_layouts.cpp DEPS server_loop render render_desktop render_gl
+                PRIVATE_DEPS render_output)
   add_executable(skyigd main.cpp daemon.cpp)
-  target_link_libraries(skyigd PRIVATE skyig_build server_painter render_output)
+  skyig_compile_together(skyigd)
+  target_link_libraries(skyigd PRIVATE skyig_build server_painter render_output config_reference)
 endif()

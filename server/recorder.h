@@ -20,6 +20,8 @@ namespace skyig::server {
 
 /// First line of a recording's comment; the others are "key value": what a replay needs besides the settings.
 inline constexpr const char* kRecordingTitle = "skyig recording 1";
+/// What the titles of all versions begin with.
+inline constexpr const char* kRecordingFamily = "skyig recording ";
 
 struct RecordingFacts {
     /// The instant that the world started from, ISO 8601.

@@ -68,7 +68,12 @@ Replay::Replay(const std::string& path, const config::Config& config)
 
 void Replay::read_facts(const std::string& path) {
     const std::string_view comment = reader_.section_comment();
-    has_marks_ = comment.substr(0, std::string_view(kRecordingTitle).size()) == kRecordingTitle;
+    const std::string_view title = comment.substr(0, comment.find('\n'));
+    has_marks_ = title == kRecordingTitle;
+    if (!has_marks_ && title.starts_with(kRecordingFamily)) {
+        throw std::runtime_error(
+            fmt::format("{}: is a \"{}\"; this program replays \"{}\"", path, title, kRecordingTitle));
+    }
     if (!has_marks_) return;
     start_utc_ = value_of(comment, "start_utc");
     renderer_ = value_of(comment, "renderer");

@@ -62,6 +62,9 @@ std::string to_table(const RunReport& report) {
     const auto out = std::back_inserter(text);
     fmt::format_to(out, "frames          {} in {:.1f} s at {:g} Hz: {} late, {} left out\n", report.frames,
                    report.elapsed_s, report.rate_hz, report.late_frames, report.slots_left_out);
+    if (report.frames_spaced > 0)
+        fmt::format_to(out, "display         did not pace {} frames: spaced by the clock\n",
+                       report.frames_spaced);
     if (report.late_frames > 0)
         fmt::format_to(out, "late by         {}\n", counts_text(report.late_by_cause));
     if (report.host_timeouts > 0)
@@ -124,6 +127,7 @@ nlohmann::ordered_json report_json(const RunReport& report) {
     json["frames"] = report.frames;
     json["late_frames"] = report.late_frames;
     json["slots_left_out"] = report.slots_left_out;
+    json["frames_spaced"] = report.frames_spaced;
     json["late_by_cause"] = counts_json(report.late_by_cause);
     json["host_timeouts"] = report.host_timeouts;
     json["delays"] = nlohmann::ordered_json::array();

@@ -94,6 +94,8 @@ struct RunReport {
     std::uint64_t late_frames = 0;
     /// Grid slots without a frame, since the frame before took longer than a whole period.
     std::uint64_t slots_left_out = 0;
+    /// By the clock, where the display should have but the swap of the windows did not wait.
+    std::uint64_t frames_spaced = 0;
     /// Late frames by what held them up.
     std::vector<NamedCount> late_by_cause;
     /// From a message's arrival in the kernel to its picture: the channels, then "shown"; then of the host in

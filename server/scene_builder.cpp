@@ -132,9 +132,13 @@ world::RegionsAt regions_at(const world::World& world, const render::Eye& eye) n
 }
 
 render::Ground ground_of(const render::Ground& settings, const world::World& world,
-                         const world::RegionsAt& regions) noexcept {
+                         const world::RegionsAt& regions, const weather::GroundCover& fallen) noexcept {
+    const auto told = [&](std::uint16_t condition_id) {
+        return world::condition_cover(world.surfaces(), regions, condition_id);
+    };
     render::Ground ground = settings;
-    ground.snow = world::snow_cover(world.surfaces(), regions).value_or(settings.snow);
+    ground.snow = told(world::kSnowCondition).value_or(settings.snow + (1.0 - settings.snow) * fallen.snow());
+    ground.wet = told(world::kWetCondition).value_or(fallen.wet());
     ground.wind_m_s = world.air().wind_horizontal_m_s;
     ground.wind_from_rad = world.air().wind_from_deg * kRadPerDeg;
     return ground;
@@ -180,8 +184,7 @@ render::Scene SceneBuilder::build(const world::World& world, std::uint64_t frame
     scene.night = night_;
     weather_.build(world, scene);
     const world::RegionsAt regions = regions_at(world, scene.eye);
-    scene.ground = ground_of(ground_, world, regions);
-    scene.ground.wet = weather_.wet();
+    scene.ground = ground_of(ground_, world, regions, weather_.ground());
     scene.sea = sea_of(world, regions);
     if (sky_.model == render::SkyModel::kWindlight && sky_.windlight.places_sun)
         scene.sun.direction_enu = render::placed_sun_enu(sky_.windlight);

@@ -33,7 +33,8 @@ class SceneBuilder {
   public:
     /// \param model  which series place the bodies
     /// \param orientation  UT1 and pole as measured; without rows the built-in tables hold
-    /// \param ground  below the air; its wind is the world's, its snow too once a host tells of some
+    /// \param ground  below the air; its wind is the world's; snow and water come on top as they
+    /// fall, until a host says how much there is
     /// \param sky  what draws the day sky; where it says the Sun's place, the Sun stands there
     /// \param night  what shines in the dark one
     /// \param weather  how layers are drawn and how they change

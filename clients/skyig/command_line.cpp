@@ -22,6 +22,7 @@
 #include "clients/skyig/tone_command.h"
 #include "clients/skyig/validators.h"
 #include "protocol/transport/endpoint.h"
+#include "render/output/light_file.h"
 #include "render/sky_settings.h"
 #include "server/ephemeris/time.h"
 
@@ -95,8 +96,13 @@ void add_shot(CLI::App& app, ShotOptions& options) {
         ->required()
         ->type_name("FILE");
     app.add_option("--luminance", options.luminance_path,
-                   "a PFM to write beside it: each pixel's light, linear Rec.709 in cd/m2, all stars and the "
-                   "discs included, without an eye and its limits")
+                   "an EXR or PFM to write beside it: each pixel's light, linear Rec.709 in cd/m2, all stars "
+                   "and the discs included, without an eye and its limits")
+        ->check([](const std::string& path) {
+            return render::output::names_light_file(path)
+                       ? std::string()
+                       : fmt::format("'{}': light is written as .exr or .pfm", path);
+        })
         ->type_name("FILE");
     app.add_flag("--json", options.json, "tell the results as JSON");
 }

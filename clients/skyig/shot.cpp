@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "clients/skyig/still/still.h"
-#include "render/output/pfm.h"
+#include "render/output/light_file.h"
 #include "render/output/png.h"
 #include "server/clock.h"
 #include "server/from_config.h"
@@ -85,8 +85,8 @@ void write_luminance(const Still& still, const ShotOptions& options, std::vector
         painter.draw(channel);
         painter.read_luminance(channel, rgb_cd_m2);
         std::string error;
-        if (!render::output::write_pfm(picture.luminance_path, picture.width_px, picture.height_px, rgb_cd_m2,
-                                       error))
+        if (!render::output::write_light(picture.luminance_path, picture.width_px, picture.height_px,
+                                         rgb_cd_m2, error))
             throw std::runtime_error(error);
     }
 }

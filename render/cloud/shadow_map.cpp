@@ -14,15 +14,16 @@ constexpr int kRows = ShadowMap::kLevels * kCells;
 constexpr std::size_t kSquare = std::size_t{kCells} * kCells;
 
 // The eye may go this part of the smallest square's side before there is a new map.
-constexpr double kAway_m = 0.0625 * kCells * ShadowMap::kCell_m[0];
+constexpr double kAway_m = 0.125 * kCells * ShadowMap::kCell_m[0];
 
 constexpr double kSourceStep = 1e-4;
 /// Of the beam: a mean that moves by less shows nowhere.
 constexpr float kMeanStep = 5e-4F;
 
-bool same_weather(const Weather& a, const Weather& b) noexcept {
-    return std::ranges::equal(a.all_clouds(), b.all_clouds());
-}
+// Shapes that have moved by less against the lattice, or are older by less, cast the same shadows: an eighth
+// of the smallest cell.
+constexpr double kShift_m = 0.125 * ShadowMap::kCell_m[0];
+constexpr double kAge_s = 8.0;
 
 // How wide the edge of a shadow is on the ground: of the layers' bases, by what they cover.
 double penumbra_of(const ShadowFrame& frame) noexcept {
@@ -43,6 +44,24 @@ const CloudLayer* layer_of(const Weather& weather, std::uint32_t seed) noexcept 
     const auto found =
         std::ranges::find_if(clouds, [seed](const CloudLayer& layer) { return layer.seed == seed; });
     return found == clouds.end() ? nullptr : &*found;
+}
+
+// Whether the clouds would cast the same shadows on a lattice that drifts with the layer of that seed.
+bool same_shadows(const Weather& made, const Weather& now, std::uint32_t seed) noexcept {
+    const CloudLayer* then = layer_of(made, seed);
+    const CloudLayer* lead = layer_of(now, seed);
+    const bool led = then != nullptr && lead != nullptr;
+    const glm::dvec2 drifted_m = led ? lead->drift_m - then->drift_m : glm::dvec2{0.0};
+    return std::ranges::equal(made.all_clouds(), now.all_clouds(),
+                              [&](const CloudLayer& before, const CloudLayer& after) {
+                                  if (glm::distance(after.drift_m - before.drift_m, drifted_m) > kShift_m ||
+                                      std::abs(after.age_s - before.age_s) > kAge_s)
+                                      return false;
+                                  CloudLayer moved = before;
+                                  moved.drift_m = after.drift_m;
+                                  moved.age_s = after.age_s;
+                                  return moved == after;
+                              });
 }
 
 // Of an edge this wide in cells, what a cell takes from each neighbour: the variance is that of a disc's
@@ -71,7 +90,7 @@ bool ShadowMap::stands_still(const ShadowFrame& frame) const noexcept {
     const glm::dvec2 away_m{eye_offset_m(made_eye_, frame.moment.eye)};
     return glm::dot(away_m, away_m) < kAway_m * kAway_m &&
            glm::distance(made_source_enu_, frame.source_enu) < kSourceStep &&
-           same_weather(made_weather_, frame.moment.scene.weather);
+           same_shadows(made_weather_, frame.moment.scene.weather, seed_);
 }
 
 // The lattice lies still under the eye but for the drift of the layer that it was begun with.
@@ -90,12 +109,23 @@ void ShadowMap::follow(const ShadowFrame& frame) noexcept {
     last_eye_ = frame.moment.eye;
 }
 
-void ShadowMap::begin(CloudMaker& maker, const ShadowFrame& frame) {
-    Grid& grid = grids_[next_];
+// Where the cells lie round the eye.
+void ShadowMap::lay(Grid& grid) const noexcept {
     for (std::size_t k = 0; k < kLevels; ++k) {
         const glm::dvec2 middle = -origin_m_ / static_cast<double>(kCell_m[k]);
         grid.low[k] = glm::ivec2{glm::round(middle)} - kCells / 2;
     }
+}
+
+// No shadows yet: the mean everywhere, from which the first map comes in.
+void ShadowMap::begin_plain() noexcept {
+    Grid& grid = grids_[new_];
+    lay(grid);
+    std::fill(grid.passed.begin(), grid.passed.end(), mean_);
+}
+
+void ShadowMap::begin(CloudMaker& maker, const ShadowFrame& frame) {
+    lay(grids_[next_]);
     source_ = &maker.freeze(CloudMaker::kShadowSlot, frame.moment);
     beam_ = {glm::vec3{frame.source_enu}, static_cast<float>(frame.source_diameter_rad)};
     penumbra_m_ = penumbra_of(frame);
@@ -210,7 +240,9 @@ bool ShadowMap::lead_level(const Weather& weather, bool at_once) noexcept {
 }
 
 void ShadowMap::update(CloudMaker& maker, const ShadowFrame& frame) {
-    const bool first = !shown_ || frame.jumped || (last_eye_ && has_leapt(*last_eye_, frame.moment.eye));
+    const bool at_once =
+        begun_ == 0 || frame.jumped || (last_eye_ && has_leapt(*last_eye_, frame.moment.eye));
+    const bool first = !shown_ || at_once;
     if (first) {
         reserve();
         last_eye_.reset();
@@ -223,11 +255,16 @@ void ShadowMap::update(CloudMaker& maker, const ShadowFrame& frame) {
         lead_level(frame.moment.scene.weather, first) || first || std::abs(mean - mean_) > kMeanStep;
     if (changed) mean_ = mean;
     if (first) {
-        begin(maker, frame);
-        make_rows(kRows);
-        blur(grids_[next_]);
-        std::swap(new_, next_);
-        making_ = false;
+        if (at_once) {
+            begin(maker, frame);
+            make_rows(kRows);
+            blur(grids_[next_]);
+            std::swap(new_, next_);
+            making_ = false;
+        } else {
+            begin_plain();
+            begin(maker, frame);
+        }
         blend_ = kRows;
         shown_ = changed = true;
     } else {

@@ -43,6 +43,7 @@ class ShadowMap {
     /// Allocates at the first call, unless reserve() was called.
     void update(CloudMaker& maker, const ShadowFrame& frame);
     /// Forgets all; the next update() begins at once.
+    /// Clouds or light that come later come in from the mean, over as many frames as a map takes.
     void stop() noexcept;
 
     [[nodiscard]] bool shown() const noexcept { return shown_; }
@@ -75,6 +76,8 @@ class ShadowMap {
     [[nodiscard]] bool stands_still(const ShadowFrame& frame) const noexcept;
     void follow(const ShadowFrame& frame) noexcept;
     void begin(CloudMaker& maker, const ShadowFrame& frame);
+    void lay(Grid& grid) const noexcept;
+    void begin_plain() noexcept;
     void make_rows(int count) noexcept;
     void blur(Grid& grid) const noexcept;
     void show(double share) noexcept;

@@ -13,6 +13,67 @@ namespace {
 constexpr LightAndPassed kClear{{0.0F, 0.0F, 0.0F, 1.0F}};
 constexpr CloudSample kNoCloud{};
 
+// Where transmittance steps by more from a texel to its neighbour, one ray meets the cloud or misses it: the
+// edge would have the texels' stairs.
+constexpr float kEdge = 0.35F;
+// Four rays on a turned square in the place of the one in the middle; parts of a texel.
+constexpr std::array<glm::dvec2, 4> kBeside{
+    {{-0.375, -0.125}, {0.125, -0.375}, {0.375, 0.125}, {-0.125, 0.375}}};
+
+bool on_edge(const std::array<CloudSample, kTileTexels>& samples, int texel) noexcept {
+    const float own = samples[static_cast<std::size_t>(texel)].transmittance;
+    const auto steps = [&](int to) {
+        return std::abs(samples[static_cast<std::size_t>(to)].transmittance - own) > kEdge;
+    };
+    const int column = texel % kTile;
+    const int row = texel / kTile;
+    return (column > 0 && steps(texel - 1)) || (column + 1 < kTile && steps(texel + 1)) ||
+           (row > 0 && steps(texel - kTile)) || (row + 1 < kTile && steps(texel + kTile));
+}
+
+CloudSample mean_of(std::span<const CloudSample> samples) noexcept {
+    CloudSample mean;
+    const float share = 1.0F / static_cast<float>(samples.size());
+    float taken = 0.0F;
+    float way_m = 0.0F;
+    mean.transmittance = 0.0F;
+    for (const CloudSample& sample : samples) {
+        mean.light_cd_m2 += share * sample.light_cd_m2;
+        mean.transmittance += share * sample.transmittance;
+        taken += 1.0F - sample.transmittance;
+        way_m += (1.0F - sample.transmittance) * sample.distance_m;
+    }
+    mean.distance_m = taken > 0.0F ? way_m / taken : 0.0F;
+    return mean;
+}
+
+// Marches a tile's edges with more rays. \param direction_of  of a place, in texels of the tile
+template <class DirectionOf>
+void refine_edges(const CloudSource& source, const CloudRange& range, float texel_rad,
+                  const DirectionOf& direction_of, std::array<CloudSample, kTileTexels>& samples) noexcept {
+    constexpr std::size_t kAtOnce = 16;
+    std::array<int, kTileTexels> edges;
+    std::size_t count = 0;
+    for (int i = 0; i < kTileTexels; ++i)
+        if (on_edge(samples, i)) edges[count++] = i;
+    std::array<CloudRay, kAtOnce * kBeside.size()> rays;
+    std::array<CloudSample, kAtOnce * kBeside.size()> beside;
+    for (std::size_t first = 0; first < count; first += kAtOnce) {
+        const std::size_t batch = std::min(kAtOnce, count - first);
+        for (std::size_t i = 0; i < batch * kBeside.size(); ++i) {
+            const int texel = edges[first + i / kBeside.size()];
+            const glm::dvec2& aside = kBeside[i % kBeside.size()];
+            rays[i].direction_enu = direction_of(texel % kTile + aside.x, texel / kTile + aside.y);
+        }
+        const std::size_t asked = batch * kBeside.size();
+        source.march(std::span{rays}.first(asked), range, texel_rad, std::span{beside}.first(asked));
+        for (std::size_t i = 0; i < batch; ++i) {
+            samples[static_cast<std::size_t>(edges[first + i])] =
+                mean_of(std::span{beside}.subspan(i * kBeside.size(), kBeside.size()));
+        }
+    }
+}
+
 }  // namespace
 
 glm::dvec3 eye_offset_m(const Eye& from, const Eye& to) noexcept {
@@ -105,16 +166,18 @@ void Snapshot::march(const CloudSource& source, int tile) noexcept {
     const MapGeometry::Texel corner = geometry_.corner(tile);
     std::array<CloudRay, kTileTexels> rays;
     std::array<CloudSample, kTileTexels> samples;
-    for (int i = 0; i < kTileTexels; ++i) {
-        rays[static_cast<std::size_t>(i)].direction_enu =
-            straight(geometry_.direction(corner.column + i % kTile, corner.row + i / kTile, corner.lower));
-    }
+    const auto direction_of = [&](double column, double row) {
+        return straight(geometry_.direction(corner.column + column, corner.row + row, corner.lower));
+    };
+    for (int i = 0; i < kTileTexels; ++i)
+        rays[static_cast<std::size_t>(i)].direction_enu = direction_of(i % kTile, i / kTile);
     source.march(rays, frozen_.range, texel_rad(corner), samples);
     if (std::all_of(samples.begin(), samples.end(),
                     [](const CloudSample& sample) { return sample == kNoCloud; })) {
         clear(tile);
         return;
     }
+    refine_edges(source, frozen_.range, texel_rad(corner), direction_of, samples);
     for (int i = 0; i < kTileTexels; ++i)
         put({corner.column + i % kTile, corner.row + i / kTile, corner.lower},
             samples[static_cast<std::size_t>(i)]);

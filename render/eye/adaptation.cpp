@@ -40,6 +40,14 @@ const std::array<ProbeDirection, kProbeCount>& probe_directions() noexcept {
     return kDirections;
 }
 
+double bright_part_cd_m2(std::array<double, kProbeCount> luminances_cd_m2) noexcept {
+    auto* const place = luminances_cd_m2.begin() + 9 * kProbeCount / 10;
+    for (double& luminance : luminances_cd_m2)
+        luminance = std::isfinite(luminance) ? std::max(luminance, 0.0) : 0.0;
+    std::nth_element(luminances_cd_m2.begin(), place, luminances_cd_m2.end());
+    return *place;
+}
+
 std::array<ViewProbe, kViewProbeColumns * kViewProbeRows> view_probes(const ChannelView& view) noexcept {
     std::array<ViewProbe, kViewProbeColumns * kViewProbeRows> out{};
     const ImagePlane p = image_plane(view.frustum);

@@ -24,6 +24,9 @@ inline constexpr std::size_t kProbeCount = 84;
 /// are left out by the caller.
 [[nodiscard]] const std::array<ProbeDirection, kProbeCount>& probe_directions() noexcept;
 
+/// What a tenth of these luminances exceed, cd/m2: more than the Sun's aureole alone.
+[[nodiscard]] double bright_part_cd_m2(std::array<double, kProbeCount> luminances_cd_m2) noexcept;
+
 /// A direction that a channel sees, and how much of the view it stands for.
 struct ViewProbe {
     glm::dvec3 direction_enu;

@@ -87,6 +87,30 @@ double highlight_room(double day_room, double adaptation_cd_m2) noexcept {
     return day_room * t * t * (3.0 - 2.0 * t);
 }
 
+double adaptation_to_bright(const DisplaySettings& display, double adaptation_cd_m2,
+                            double bright_cd_m2) noexcept {
+    if (display.tone != ToneOperator::kHybrid || !(bright_cd_m2 > adaptation_cd_m2)) return adaptation_cd_m2;
+    const double log_bright = std::log10(bright_cd_m2);
+    const double log_shoulder = std::log10(display.shoulder * display.max_luminance_cd_m2);
+    const auto too_bright = [&](double log_adaptation) {
+        const double adaptation = std::pow(10.0, log_adaptation);
+        const ToneCurve curve = tone_curve(display, adaptation);
+        return curve.p - highlight_room(display.highlight_room, adaptation) + curve.q * log_bright >
+               log_shoulder;
+    };
+    const double log_wanted = log_of(adaptation_cd_m2);
+    double low = log_wanted;
+    double high = log_bright;
+    // A twilight's arch may be brighter than the screen: the rest would be dark.
+    const double t = std::clamp(log_wanted - 2.0, 0.0, 1.0);
+    if (t == 0.0 || !too_bright(low)) return adaptation_cd_m2;
+    for (int i = 0; i < 24; ++i) {
+        const double middle = 0.5 * (low + high);
+        (too_bright(middle) ? low : high) = middle;
+    }
+    return std::pow(10.0, log_wanted + t * t * (3.0 - 2.0 * t) * (high - log_wanted));
+}
+
 double point_gain(const DisplaySettings& display, double adaptation_cd_m2) noexcept {
     // Chosen by looking: eyes before a display are not as dark-adapted, nor its codes as fine, as the
     // threshold by night supposes.

@@ -36,6 +36,12 @@ inline constexpr double kTumblinZero_cd_m2 = 1.5940429e-4;
 /// scene: `day_room` by day, none at 1e-3 cd/m2 and below, where thresholds match.
 [[nodiscard]] double highlight_room(double day_room, double adaptation_cd_m2) noexcept;
 
+/// kHybrid: the adaptation at which, by day, what is so bright is shown no brighter than where the screen's
+/// shoulder begins: eyes over sunlit clouds or snow adapt to those and not to the dark sky beside them.
+/// Between `adaptation_cd_m2`, where no more is needed or below 100 cd/m2, and `bright_cd_m2`.
+[[nodiscard]] double adaptation_to_bright(const DisplaySettings& display, double adaptation_cd_m2,
+                                          double bright_cd_m2) noexcept;
+
 /// All that the shaders need: the operator, less highlight_room(), and the screen.
 [[nodiscard]] shaders64::ToneParameters tone_parameters(const DisplaySettings& display,
                                                         double adaptation_cd_m2) noexcept;

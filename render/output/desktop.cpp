@@ -98,6 +98,8 @@ class Window {
             throw std::runtime_error("window \"" + layout_.title + "\": there is no monitor \"" +
                                      layout_.monitor + "\"; there is " + monitor_list());
         }
+        // A number is that of the start: when one is unplugged, those behind it get others.
+        if (monitor != nullptr) layout_.monitor = glfwGetMonitorName(monitor);
         set_context_hints();
         glfwWindowHint(GLFW_DECORATED, layout_.frame && monitor == nullptr ? GLFW_TRUE : GLFW_FALSE);
         handle_.reset(
@@ -120,16 +122,20 @@ class Window {
 
     [[nodiscard]] bool closed() const noexcept { return glfwWindowShouldClose(handle_.get()) == GLFW_TRUE; }
 
-    /// After a change of monitors.
+    /// GLFW takes a window off a monitor that is gone.
     void look_for_monitor() noexcept {
-        if (layout_.monitor.empty()) return;
-        GLFWmonitor* monitor = find_monitor(layout_.monitor);
-        if (monitor == nullptr) {
+        if (layout_.monitor.empty() || glfwGetWindowMonitor(handle_.get()) != nullptr) return;
+        if (GLFWmonitor* monitor = find_monitor(layout_.monitor); monitor != nullptr) {
+            place(monitor);
+        } else if (!hidden_) {
             glfwHideWindow(handle_.get());
             hidden_ = true;
-        } else if (hidden_ || glfwGetWindowMonitor(handle_.get()) != monitor) {
-            place(monitor);
         }
+    }
+
+    [[nodiscard]] bool hides(std::size_t channel) const noexcept {
+        return hidden_ && std::any_of(layout_.parts.begin(), layout_.parts.end(),
+                                      [channel](const Part& part) { return part.channel == channel; });
     }
 
     void show(std::span<const Shown> channels) noexcept {
@@ -173,7 +179,6 @@ struct Desktop::Impl {
     Glfw glfw;
     WindowHandle drawing;
     std::vector<std::unique_ptr<Window>> windows;
-    int monitor_count = 0;
 };
 
 Desktop::Desktop(std::vector<WindowLayout> windows, bool vsync) : impl_(std::make_unique<Impl>()) {
@@ -181,7 +186,6 @@ Desktop::Desktop(std::vector<WindowLayout> windows, bool vsync) : impl_(std::mak
     for (WindowLayout& layout : windows)
         impl_->windows.push_back(std::make_unique<Window>(std::move(layout), impl_->drawing.get(),
                                                           vsync && impl_->windows.empty()));
-    impl_->monitor_count = static_cast<int>(monitors().size());
     glfwMakeContextCurrent(impl_->drawing.get());
 }
 
@@ -189,18 +193,19 @@ Desktop::~Desktop() = default;
 
 bool Desktop::present(std::span<const Shown> channels) {
     glfwPollEvents();
-    if (const int count = static_cast<int>(monitors().size()); count != impl_->monitor_count) {
-        impl_->monitor_count = count;
-        for (const auto& window : impl_->windows)
-            window->look_for_monitor();
-    }
     bool closed = false;
     for (const auto& window : impl_->windows) {
+        window->look_for_monitor();
         window->show(channels);
         closed = closed || window->closed();
     }
     glfwMakeContextCurrent(impl_->drawing.get());
     return !closed;
+}
+
+bool Desktop::hides(std::size_t channel) const noexcept {
+    return std::any_of(impl_->windows.begin(), impl_->windows.end(),
+                       [channel](const auto& window) { return window->hides(channel); });
 }
 
 std::string Desktop::description() const {

@@ -21,7 +21,8 @@ struct Part {
 
 struct WindowLayout {
     std::string title;
-    /// Covers the monitor of this name or number; empty: lies on the desktop.
+    /// Covers the monitor of this name, or of this number when the window is made; empty: lies on the
+    /// desktop.
     std::string monitor;
     int x_px = 0;
     int y_px = 0;
@@ -54,6 +55,9 @@ class Desktop {
     /// number; what lies beyond shows nothing. Allocates nothing of its own. \return false once a person has
     /// closed a window
     bool present(std::span<const Shown> channels);
+
+    /// Whether a window that shows the channel waits for its monitor to come back.
+    [[nodiscard]] bool hides(std::size_t channel) const noexcept;
 
     /// As HeadlessContext::description().
     [[nodiscard]] std::string description() const;

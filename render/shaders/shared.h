@@ -16,6 +16,7 @@ using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, 
 #include "render/shaders/cloud/before.glsl"
 #include "render/shaders/cloud/map.glsl"
 #include "render/shaders/common/angle.glsl"
+#include "render/shaders/common/fresnel.glsl"
 #include "render/shaders/eye/tone.glsl"
 // After the tone curve that it builds on.
 #include "render/shaders/eye/fovea.glsl"
@@ -39,6 +40,7 @@ using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, 
 #include "render/shaders/cloud/before.glsl"
 #include "render/shaders/cloud/map.glsl"
 #include "render/shaders/common/angle.glsl"
+#include "render/shaders/common/fresnel.glsl"
 #include "render/shaders/eye/tone.glsl"
 // After the tone curve that it builds on.
 #include "render/shaders/eye/fovea.glsl"

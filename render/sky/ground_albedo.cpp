@@ -49,10 +49,12 @@ void lay_land(const Ground& ground, AirModel& model) noexcept {
     const double bare = luminous_albedo(model, spectrum_of(bare_land_albedo));
     const double told = ground.albedo && std::isfinite(*ground.albedo) ? *ground.albedo : bare;
     const double scale = std::clamp(told, 0.0, 1.0) / bare;
-    const double snow = std::isfinite(ground.snow) ? std::clamp(ground.snow, 0.0, 1.0) : 0.0;
-    // In steps: land that dries asks for new air sixteen times, not in every frame.
-    const double told_wet = std::isfinite(ground.wet) ? std::clamp(ground.wet, 0.0, 1.0) : 0.0;
-    const double wet = std::round(16.0 * told_wet) / 16.0;
+    // In steps: land that dries or whitens asks for new air now and then, not in every frame.
+    const auto in_steps = [](double share, double steps) {
+        return std::isfinite(share) ? std::round(steps * std::clamp(share, 0.0, 1.0)) / steps : 0.0;
+    };
+    const double snow = in_steps(ground.snow, 100.0);
+    const double wet = in_steps(ground.wet, 16.0);
     model.ground_albedo = spectrum_of([&](double nm) {
         const double dry = std::min(scale * bare_land_albedo(nm), 1.0);
         const double land = dry + wet * (wet_albedo(dry) - dry);

@@ -57,11 +57,7 @@ constexpr double kSteepest = 4.0;
 }  // namespace
 
 double fresnel_reflectance(double cosine) noexcept {
-    const double c = std::clamp(cosine, 0.0, 1.0);
-    const double inside = std::sqrt(kSeaIndex * kSeaIndex - 1.0 + c * c);
-    const double across = (c - inside) / (c + inside);
-    const double along = (kSeaIndex * kSeaIndex * c - inside) / (kSeaIndex * kSeaIndex * c + inside);
-    return 0.5 * (across * across + along * along);
+    return shaders64::fresnel_reflectance(std::clamp(cosine, 0.0, 1.0), kSeaIndex);
 }
 
 double wave_slope(const Wave& wave) noexcept {

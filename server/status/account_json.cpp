@@ -141,7 +141,8 @@ Json channels_json(const Account& account) {
         json.push_back({{"name", account.facts.channels[i]},
                         {"failed", health.failed},
                         {"failures", health.failures},
-                        {"last_failure", health.reason()}});
+                        {"last_failure", health.reason()},
+                        {"hidden", account.snapshot.hidden[i]}});
     }
     return json;
 }

@@ -51,6 +51,9 @@ void add_frames(MetricsText& out, const Account& account) {
     out.sample({{"step", "returned"}}, number(snapshot.thinning.times_returned));
     counter(out, "skyig_slots_left_out_total", "Frame periods that passed without a frame.",
             snapshot.slots_left_out);
+    counter(out, "skyig_frames_spaced_total",
+            "Frames spaced by the clock, since the swap of the windows did not wait for a display.",
+            snapshot.frames_spaced);
     out.family("skyig_frame_seconds", "histogram", "Work of one frame.");
     std::uint64_t below = 0;
     for (std::size_t i = 0; i < FrameRecord::kClassEnds_s.size(); ++i) {
@@ -85,6 +88,9 @@ void add_frames(MetricsText& out, const Account& account) {
     out.family("skyig_channel_failures_total", "counter", "Times that the channel could not be drawn.");
     for (std::size_t i = 0; i < channels.size(); ++i)
         out.sample({{"channel", channels[i]}}, number(snapshot.health[i].failures));
+    out.family("skyig_channel_hidden", "gauge", "1 while the monitor of the channel's window is gone.");
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        out.sample({{"channel", channels[i]}}, snapshot.hidden[i] ? 1.0 : 0.0);
     counter(out, "skyig_gl_errors_total", "OpenGL errors.", snapshot.gl_errors);
     counter(out, "skyig_gl_resets_total", "Resets of the graphics device, all made anew after each.",
             snapshot.gl_resets);

@@ -10,8 +10,10 @@
 namespace skyig::server::status {
 
 struct ChannelHealth {
-    /// It could not be drawn when that was last tried: its picture is crossed out in red.
+    /// It could not be drawn when that was last tried.
     bool failed = false;
+    /// Its picture says so in red; else there is no device that could.
+    bool crossed_out = false;
     /// How often it could not.
     std::uint64_t failures = 0;
 

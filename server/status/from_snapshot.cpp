@@ -88,6 +88,7 @@ RunReport make_report(const Facts& facts, const Snapshot& snapshot) {
     report.frames = snapshot.frames;
     report.late_frames = snapshot.late_frames;
     report.slots_left_out = snapshot.slots_left_out;
+    report.frames_spaced = snapshot.frames_spaced;
     report.times.push_back(row("input", snapshot.input));
     report.times.push_back(row("shared", snapshot.shared));
     for (std::size_t i = 0; i < facts.channels.size(); ++i)

@@ -29,6 +29,8 @@ Health health_of(const Facts& facts, const Snapshot& snapshot, std::int64_t now_
         if (channel.failed)
             return {false,
                     fmt::format("channel {} cannot be drawn: {}", facts.channels[i], channel.reason())};
+        if (snapshot.hidden[i])
+            return {false, fmt::format("channel {} is not shown: its monitor is gone", facts.channels[i])};
     }
     return {true, "ok"};
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -103,12 +104,16 @@ struct Snapshot {
     double elapsed_s = 0.0;
     std::uint64_t late_frames = 0;
     std::uint64_t slots_left_out = 0;
+    /// By the clock, where the display should have.
+    std::uint64_t frames_spaced = 0;
     FrameRecord record;
     Times input;
     Times shared;
     Times frame;
     std::array<Times, config::kMaxChannels> channels{};
     std::array<ChannelHealth, config::kMaxChannels> health{};
+    /// Their windows' monitors are gone.
+    std::bitset<config::kMaxChannels> hidden;
 
     /// From a message's arrival in the kernel until each channel is finished, until all have been handed on.
     std::array<Delay, config::kMaxChannels> delays{};

@@ -28,12 +28,6 @@ static_assert(static_cast<int>(CloudType::kAltocumulus) == static_cast<int>(Clou
                   static_cast<int>(CloudType::kStratus) == static_cast<int>(CloudGenus::kStratus),
               "one order of genera in packets and scene");
 
-CloudGenus genus_of(config::LayerType type) noexcept {
-    return static_cast<CloudGenus>(static_cast<int>(type) -
-                                   static_cast<int>(config::LayerType::kAltocumulus) +
-                                   static_cast<int>(CloudGenus::kAltocumulus));
-}
-
 struct Kind {
     Family family = Family::kCloud;
     std::uint8_t number = 0;
@@ -151,6 +145,12 @@ LayerState state_of(const WeatherControl& control, const Kind& kind, const Meani
 }
 
 }  // namespace
+
+render::CloudGenus genus_of(config::LayerType type) noexcept {
+    return static_cast<CloudGenus>(static_cast<int>(type) -
+                                   static_cast<int>(config::LayerType::kAltocumulus) +
+                                   static_cast<int>(CloudGenus::kAltocumulus));
+}
 
 glm::dvec2 wind_towards_m_s(double speed_m_s, double from_deg) noexcept {
     const double from_rad = from_deg * std::numbers::pi / 180.0;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "config/weather.h"
 #include "protocol/cigi/packets.h"
 #include "server/weather/layer_state.h"
 
@@ -25,6 +26,9 @@ struct Meaning {
 [[nodiscard]] std::optional<ToldLayer> told_layer(const protocol::cigi::WeatherControl& control,
                                                   const Meaning& meaning,
                                                   std::optional<double> carrier_m = {}) noexcept;
+
+/// Of a layer's type that is a cloud.
+[[nodiscard]] render::CloudGenus genus_of(config::LayerType type) noexcept;
 
 /// Towards east and north, of a wind that blows from there.
 [[nodiscard]] glm::dvec2 wind_towards_m_s(double speed_m_s, double from_deg) noexcept;

@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "config/warp/grey_map.h"
+#include "render/cloud/field/texture.h"
 #include "render/fog/patches.h"
 #include "render/weather_area.h"
 #include "render/weather_ramp.h"
@@ -77,11 +79,42 @@ Obscurant obscurant_of(const ShownLayer& layer, Obscurant::Kind kind, const glm:
     return obscurant;
 }
 
+static_assert(static_cast<int>(config::CloudNoise::kPuffs) == static_cast<int>(render::CloudNoise::kPuffs) &&
+                  static_cast<int>(config::CloudNoise::kFibres) ==
+                      static_cast<int>(render::CloudNoise::kFibres),
+              "one order of noises in settings and scene");
+
+render::CloudLook look_of(const config::WeatherSheet& sheet) {
+    render::CloudLook look;
+    for (render::CloudLook::Tile& tile : look.tiles)
+        tile.weight = 0.0;
+    for (std::size_t i = 0; i < std::min(sheet.textures.size(), look.tiles.size()); ++i) {
+        const config::WeatherTexture& texture = sheet.textures[i];
+        render::CloudLook::Tile& tile = look.tiles[i];
+        if (texture.image) {
+            tile.picture = std::make_shared<render::cloud::field::Texture>(texture.image->width_px,
+                                                                           texture.image->values);
+        }
+        tile.noise = static_cast<render::CloudNoise>(texture.noise);
+        tile.times = std::max(static_cast<int>(std::lround(config::kTexturesRepeat_m / texture.size_m)), 1);
+        tile.scroll_m_s = wind_towards_m_s(texture.scroll_m_s, texture.scroll_from_deg);
+        tile.weight = texture.weight;
+    }
+    look.density_offset = sheet.density_offset;
+    look.self_shadow = sheet.self_shadow;
+    look.colour = {sheet.colour[0], sheet.colour[1], sheet.colour[2]};
+    return look;
+}
+
 }  // namespace
 
-WeatherSettings weather_settings(const config::Weather& weather) noexcept {
-    WeatherSettings settings{
-        weather.transition_s, weather.elevation_m, static_cast<render::CloudModel>(weather.clouds), {}};
+WeatherSettings weather_settings(const config::Weather& weather) {
+    WeatherSettings settings;
+    settings.transition_s = weather.transition_s;
+    settings.elevation_m = weather.elevation_m;
+    settings.clouds = static_cast<render::CloudModel>(weather.clouds);
+    for (const config::WeatherSheet& sheet : weather.sheets)
+        settings.looks[static_cast<std::size_t>(genus_of(sheet.type))] = look_of(sheet);
     if (weather.driver == config::WeatherDriver::kKeyframes) settings.keyframes = weather.keyframes;
     return settings;
 }
@@ -91,7 +124,10 @@ WeatherBuilder::WeatherBuilder(const WeatherSettings& settings)
 
 void WeatherBuilder::build(const world::World& world, render::Scene& scene) {
     render::Weather& weather = scene.weather;
-    if (world.resets() != resets_) drifts_.forget();
+    if (world.resets() != resets_) {
+        drifts_.forget();
+        ground_.clear();
+    }
     const bool at_once = jumped(world, scene.time_s);
     const EyePlane plane(scene.eye);
     if (settings_.keyframes) {
@@ -109,9 +145,9 @@ void WeatherBuilder::build(const world::World& world, render::Scene& scene) {
     carry(world.air(), scene.time_s);
     left_out_ = gatherer_.left_out();
     settle_air(scene, at_once);
-    rain_mm_h_ = 0.0;
+    reaching_ = {};
     show(plane, scene, weather);
-    soak(scene.time_s, at_once);
+    cover_ground(scene, at_once);
     weather.wind_m_s = wind_at_eye(world, plane, scene.eye);
     move_eye(scene.eye, scene.time_s, at_once, weather);
     time_s_ = scene.time_s;
@@ -228,6 +264,7 @@ void WeatherBuilder::show_cloud(const ShownLayer& layer, const render::Scene& sc
     cloud.severity = state.severity;
     cloud.seed = seed_of(layer.told.key);
     cloud.area = area;
+    cloud.look = settings_.looks[layer.told.key.kind];
 }
 
 void WeatherBuilder::show_obscurant(const ShownLayer& layer, const render::Scene& scene,
@@ -265,7 +302,11 @@ void WeatherBuilder::show_falling(const ShownLayer& layer, const render::Scene& 
                                         drifts_.at(layer.told.key.place), area);
     add(made, weather);
     const double below_eye_mm_h = layer.state.rate_mm_h * layer.uncovered * weight_at_eye(area);
-    if (!snow && kind != Precipitation::Kind::kHail) rain_mm_h_ += below_eye_mm_h;
+    const double as_snow = snow ? 1.0 : kind == Precipitation::Kind::kSleet ? 0.5 : 0.0;
+    if (kind != Precipitation::Kind::kHail) {
+        reaching_.snow_mm_h += as_snow * below_eye_mm_h;
+        reaching_.rain_mm_h += (1.0 - as_snow) * below_eye_mm_h;
+    }
     const double rate_mm_h = below_eye_mm_h * weight_at_height(layer.state, scene.eye.height_m);
     if (rate_mm_h <= 0.0) return;
     // One of each kind: there is room for all.
@@ -280,21 +321,12 @@ void WeatherBuilder::show_falling(const ShownLayer& layer, const render::Scene& 
     weather.precipitations[weather.precipitation_count++] = {kind, rate_mm_h, made.top_m};
 }
 
-void WeatherBuilder::soak(double time_s, bool at_once) noexcept {
-    // This much rain keeps all of the land wet; a millimetre makes it so.
-    constexpr double kKeepsWet_mm_h = 1.0;
-    constexpr double kSoaks_mm = 1.0;
-    constexpr double kDries_s = 1800.0;
-    const double kept = std::min(rain_mm_h_ / kKeepsWet_mm_h, 1.0);
+void WeatherBuilder::cover_ground(const render::Scene& scene, bool at_once) noexcept {
+    reaching_.air_c = scene.air.temperature_c;
     if (at_once) {
-        wet_ = kept;
-        return;
-    }
-    const double step_s = time_s - *time_s_;
-    if (kept > wet_) {
-        wet_ = std::min(kept, wet_ + rain_mm_h_ / 3600.0 * step_s / kSoaks_mm);
+        ground_.settle(reaching_);
     } else {
-        wet_ = kept + (wet_ - kept) * std::exp(-step_s / kDries_s);
+        ground_.advance(reaching_, scene.time_s - *time_s_);
     }
 }
 

@@ -10,10 +10,14 @@
 #include "render/scene.h"
 #include "server/weather/drifts.h"
 #include "server/weather/gather.h"
+#include "server/weather/ground_cover.h"
 #include "server/weather/ramps.h"
 #include "server/world/world.h"
 
 namespace skyig::server::weather {
+
+/// Numbers of render::CloudGenus, 0 with them.
+inline constexpr std::size_t kCloudGenera = 11;
 
 struct WeatherSettings {
     /// How long a change takes, >= 0.
@@ -23,9 +27,11 @@ struct WeatherSettings {
     render::CloudModel clouds = render::CloudModel::kAuto;
     /// They make the air, the stars and the colours of the sky, and scale the clouds; none: the host does.
     std::optional<config::Keyframes> keyframes;
+    /// Of genera that are drawn as sheets of their own, by render::CloudGenus.
+    std::array<std::optional<render::CloudLook>, kCloudGenera> looks;
 };
 
-[[nodiscard]] WeatherSettings weather_settings(const config::Weather& weather) noexcept;
+[[nodiscard]] WeatherSettings weather_settings(const config::Weather& weather);
 
 /// Fills the scene's weather, and its air's visibility while that changes. What is told is shown after
 /// `transition_s`; the first frame, a jump of the clock and the world's reset are shown at once.
@@ -43,8 +49,9 @@ class WeatherBuilder {
     /// Of the last frame: layers for which the scene has no place, the furthest.
     [[nodiscard]] std::size_t left_out() const noexcept { return left_out_; }
 
-    /// How wet rain has made the land below the eye, 0..1: it soaks in minutes and dries in half an hour.
-    [[nodiscard]] double wet() const noexcept { return wet_; }
+    /// Of the land below the eye: it soaks in minutes, dries in half an hour and whitens in an hour. A reset
+    /// of the world clears it; a clock that is set finds it as wet as it will be, under the snow that lay.
+    [[nodiscard]] const GroundCover& ground() const noexcept { return ground_; }
 
   private:
     [[nodiscard]] bool jumped(const world::World& world, double time_s) noexcept;
@@ -58,7 +65,7 @@ class WeatherBuilder {
     void add(const render::Obscurant& made, render::Weather& weather) noexcept;
     void show_falling(const ShownLayer& layer, const render::Scene& scene,
                       const std::optional<render::WeatherArea>& area, render::Weather& weather) noexcept;
-    void soak(double time_s, bool at_once) noexcept;
+    void cover_ground(const render::Scene& scene, bool at_once) noexcept;
     void carry(const world::AirState& air, double time_s) noexcept;
     [[nodiscard]] glm::dvec3 wind_at_eye(const world::World& world, const EyePlane& plane,
                                          const render::Eye& eye) const noexcept;
@@ -76,9 +83,9 @@ class WeatherBuilder {
     glm::dvec3 eye_velocity_ecef_m_s_{0.0};
     bool eye_moves_ = false;
     std::size_t left_out_ = 0;
-    /// What rains on the ground below the eye in this frame.
-    double rain_mm_h_ = 0.0;
-    double wet_ = 0.0;
+    /// What falls on the ground below the eye in this frame.
+    Reaching reaching_;
+    GroundCover ground_;
     /// Of clouds, by the keyframes.
     double cloud_cover_ = 1.0;
 };

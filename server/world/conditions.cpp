@@ -264,13 +264,17 @@ void WavesAt::add(const WaveControl& wave, double weight) noexcept {
     if (height_m(*lowest) < height_m(made)) *lowest = made;
 }
 
-std::optional<double> snow_cover(const SurfaceStore& surfaces, const RegionsAt& regions) noexcept {
+std::optional<double> condition_cover(const SurfaceStore& surfaces, const RegionsAt& regions,
+                                      std::uint16_t condition_id) noexcept {
     const auto told = [&](WeatherScope scope, std::uint16_t region_id) -> std::optional<double> {
+        std::optional<double> cover;
         for (const TerrestrialSurfaceControl& condition : surfaces.conditions(scope, region_id)) {
-            if (condition.enable && condition.condition_id == kSnowCondition)
+            if (!condition.enable) continue;
+            if (condition.condition_id == condition_id)
                 return static_cast<double>(condition.coverage) / 100.0;
+            if (condition.condition_id == kDryCondition) cover = 0.0;
         }
-        return std::nullopt;
+        return cover;
     };
     std::optional<double> cover = told(WeatherScope::kGlobal, 0);
     for (const RegionAt& at : regions) {

@@ -126,13 +126,16 @@ class WavesAt {
     std::size_t count_ = 0;
 };
 
-/// Terrestrial conditions that are drawn, by id.
+/// Terrestrial conditions that are drawn, by id. Dry holds for those of the two that are not enabled beside
+/// it.
+inline constexpr std::uint16_t kDryCondition = 0;
 inline constexpr std::uint16_t kSnowCondition = 1;
+inline constexpr std::uint16_t kWetCondition = 2;
 
-/// Part of the ground that snow covers, 0..1, if anybody has said so here: the coverage of condition 1. A
-/// region's takes the place of the global one, in its perimeter by part.
-[[nodiscard]] std::optional<double> snow_cover(const SurfaceStore& surfaces,
-                                               const RegionsAt& regions) noexcept;
+/// Part of the ground that such a condition covers, 0..1, if anybody has said so here. A region's takes the
+/// place of the global one, in its perimeter by part.
+[[nodiscard]] std::optional<double> condition_cover(const SurfaceStore& surfaces, const RegionsAt& regions,
+                                                    std::uint16_t condition_id) noexcept;
 
 /// The terrestrial conditions at a point. A region's take the place of the global ones, in its perimeter they
 /// come beside them. Nothing set is condition 0: dry.

@@ -13,9 +13,6 @@ using protocol::transport::to_string;
 
 namespace {
 
-/// A link that comes and goes, or a host that asks for the impossible in every message, fills no log.
-constexpr double kRepeatAfter_s = 10.0;
-
 cigi::SessionOptions session_options(const config::Host& host) {
     cigi::SessionOptions options;
     options.version = host.cigi.major == 4 ? cigi::Version::k40 : cigi::Version::k33;

@@ -11,7 +11,6 @@ namespace cigi = protocol::cigi;
 
 namespace {
 
-constexpr double kRepeatAfter_s = 10.0;
 constexpr double kRadPerDeg = 0.017453292519943295;
 /// Offsets from a parent beyond this are none.
 constexpr double kLongestOffset_m = 1e7;

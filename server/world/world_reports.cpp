@@ -7,8 +7,6 @@ namespace skyig::server::world {
 
 namespace {
 
-constexpr double kRepeatAfter_s = 10.0;
-
 /// Takes over what is there and what a sky can have. \return false when it is there and no sky has it
 bool take(const std::optional<double>& value, double min, double max, double& out) noexcept {
     if (!value) return true;

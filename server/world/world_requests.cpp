@@ -18,8 +18,6 @@ constexpr std::uint16_t kTestPattern = 0;
 constexpr std::uint16_t kRegion = 0;
 constexpr std::uint16_t kRegionLayer = 1;
 
-constexpr double kRepeatAfter_s = 10.0;
-
 /// Whose word counts: a component is part of what an aspect holds.
 std::optional<config::Aspect> aspect_of(cigi::ComponentClass component_class) noexcept {
     switch (component_class) {

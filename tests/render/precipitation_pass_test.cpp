@@ -315,9 +315,9 @@ TEST_F(PrecipitationPicture, WetFloorMirrorsTheSkyAndAWallDoesNot) {
             if (ray.z > 0.0 || floor_m > 42.0 / ray.y) {
                 wall = std::max(wall, std::abs(added_at_once) / std::max(before, 1e-3));
             } else if (floor_m < 36.0 / ray.y) {
-                const double cosine = std::sqrt(ray.z * ray.z + 0.01);
-                const double share = 0.5 * (0.02 + 0.98 * std::pow(1.0 - cosine, 5.0));
-                const Horizontal at{std::asin(cosine), horizontal_of(ray).azimuth_rad};
+                const double share = 0.5 * shaders64::film_reflectance(-ray.z);
+                const Horizontal at{std::asin(std::sqrt(ray.z * ray.z + 0.01)),
+                                    horizontal_of(ray).azimuth_rad};
                 const double sky = static_cast<double>(
                     frame.light().smooth_rgb_cd_m2(at.elevation_rad, at.azimuth_rad, Side::kSky).y);
                 worst = std::max(worst, std::abs(added / (share * (sky - before)) - 1.0));

@@ -37,7 +37,77 @@ TEST_F(WetGround, IsHalfAsBrightFromAboveAndMirrorsTheSkyAlongIt) {
     // half of the ground, comes on top.
     EXPECT_GT(down, 0.5);
     EXPECT_LT(down, 0.65);
-    EXPECT_GT(along, 1.1);
+    EXPECT_GT(along, 1.05);
+}
+
+// Of a level mirror of water, by the angles of Snell's law, straight down by the index alone.
+double snells_reflectance(double elevation_deg) {
+    if (elevation_deg == 90.0) return std::pow(0.333 / 2.333, 2.0);
+    const double in = (90.0 - elevation_deg) * kDegree;
+    const double on = std::asin(std::sin(in) / 1.333);
+    return 0.5 * (std::pow(std::sin(in - on) / std::sin(in + on), 2.0) +
+                  std::pow(std::tan(in - on) / std::tan(in + on), 2.0));
+}
+
+// Mean over slopes of variance 0.005 each way, each by the area that it shows.
+double rough_reflectance(double elevation_deg) {
+    const double up = std::sin(elevation_deg * kDegree);
+    const double level = std::cos(elevation_deg * kDegree);
+    double sum = 0.0, weight = 0.0;
+    for (int i = -60; i <= 60; ++i) {
+        for (int k = -60; k <= 60; ++k) {
+            const double east = i * 0.005;
+            const double north = k * 0.005;
+            const double shown = up - level * east;
+            if (shown <= 0.0) continue;
+            const double part = shown * std::exp(-100.0 * (east * east + north * north));
+            const double cosine = shown / std::sqrt(1.0 + east * east + north * north);
+            weight += part;
+            sum += part * snells_reflectance(std::asin(cosine) / kDegree);
+        }
+    }
+    return sum / weight;
+}
+
+TEST_F(WetGround, ItsFilmMirrorsAsFresnelHasIt) {
+    const Scene scene = scene_of(1.0);
+    SkyFrame frame({}, {});
+    frame.prepare(scene, 1e-3);
+    SkyLight bare = frame.light();
+    bare.film = 0.0;
+    for (const double elevation_deg : {90.0, 60.0, 45.0, 30.0, 20.0, 15.0, 10.0, 6.0, 3.0}) {
+        const double down_rad = -elevation_deg * kDegree;
+        const double film = static_cast<double>(frame.light().rgb_cd_m2(down_rad, 1.0, Side::kGround).y) -
+                            static_cast<double>(bare.rgb_cd_m2(down_rad, 1.0, Side::kGround).y);
+        const double sine = std::sin(down_rad);
+        const double mirrored_rad = std::asin(std::min(std::sqrt(sine * sine + 0.01), 1.0));
+        const double sky = static_cast<double>(bare.covered_rgb_cd_m2(mirrored_rad, 1.0, Side::kSky).y);
+        const double passed = std::exp(-2.996 / 50e3 * 30.0 / -sine);
+        const double measured = film / (0.5 * passed * sky);
+        std::printf("%2.0f deg: %.1f cd/m2, reflectance %.4f, Fresnel %.4f, of slopes %.4f\n", elevation_deg,
+                    film, measured, snells_reflectance(elevation_deg), rough_reflectance(elevation_deg));
+        if (elevation_deg >= 15.0) {
+            EXPECT_NEAR(measured / snells_reflectance(elevation_deg), 1.0, 0.02);
+        }
+        EXPECT_NEAR(measured / rough_reflectance(elevation_deg), 1.0, 0.04);
+    }
+}
+
+TEST_F(WetGround, SnowSendsBackWhatFallsOnIt) {
+    Scene scene = scene_of(0.0);
+    scene.ground.snow = 1.0;
+    SkyFrame frame({}, {});
+    frame.prepare(scene, 1e-3);
+    const double elevation_rad = 40.0 * kDegree;
+    const glm::dvec3 lux = glm::dvec3{frame.light().sun.scale_xyz} *
+                           (std::sin(elevation_rad) * frame.air().direct_sun_xyz(0.0, elevation_rad) +
+                            frame.air().ground_diffuse_xyz(elevation_rad));
+    const double seen = luminance(scene, -89.0, 0.0);
+    // Wiscombe and Warren's clean snow, less a tenth: 0.85 where the eye is most sensitive.
+    const double wanted = 0.85 * lux.y / M_PI;
+    std::printf("snow under %.0f lx: %.0f cd/m2, albedo 0.85 would be %.0f\n", lux.y, seen, wanted);
+    EXPECT_NEAR(seen / wanted, 1.0, 0.02);
+    EXPECT_GT(seen, 6.0 * luminance(scene_of(0.0), -89.0, 0.0));
 }
 
 TEST_F(WetGround, ComesWithoutAStepAndIgnoresNonsense) {

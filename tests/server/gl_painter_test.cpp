@@ -194,7 +194,7 @@ TEST(ChannelGuard, TriesEverMoreRarelyAndAtOnceAgainAfterASuccess) {
     for (int frame = 1; frame <= 200; ++frame) {
         if (!guard.try_now()) continue;
         tries.push_back(frame);
-        guard.failed("no");
+        guard.failed("no", true);
     }
     EXPECT_EQ(tries, (std::vector<int>{1, 2, 4, 8, 16, 32, 64, 128, 192}));
     while (!guard.try_now()) {
@@ -202,7 +202,7 @@ TEST(ChannelGuard, TriesEverMoreRarelyAndAtOnceAgainAfterASuccess) {
     guard.drawn();
     EXPECT_FALSE(guard.health().failed);
     EXPECT_TRUE(guard.try_now());
-    guard.failed("again");
+    guard.failed("again", true);
     EXPECT_TRUE(guard.try_now());
     EXPECT_EQ(guard.health().failures, 10U);
 }

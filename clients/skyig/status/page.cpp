@@ -175,6 +175,8 @@ void add_channels(Page& page, const Json& now, Before before) {
     const Json& channels = now.at("channels");
     const Before old = member(before, "channels");
     for (std::size_t i = 0; i < channels.size(); ++i) {
+        if (channels[i].value("hidden", false))
+            page.line("channel", "{}: NOT SHOWN, its monitor is gone", text_of(channels[i].at("name")));
         if (channels[i].at("failures") == 0) continue;
         const Before was = old != nullptr && i < old->size() ? &(*old)[i] : nullptr;
         page.line("channel", "{}: {}, {} times not drawn, last: {}", text_of(channels[i].at("name")),

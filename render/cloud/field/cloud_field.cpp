@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "render/cloud/field/freeze.h"
+#include "render/cloud/field/texture.h"
 
 namespace skyig::render::cloud::field {
 
@@ -12,6 +13,15 @@ CloudField::CloudField(std::shared_ptr<const Matrix> matrix, const Kernels& vari
 
 void CloudField::freeze(const Scene& scene, const CloudLight& light) noexcept {
     freeze_field(*matrix_, scene, light, field_);
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+        const std::optional<CloudLook>& look = scene.weather.clouds[i].look;
+        for (std::size_t k = 0; k < textures_[i].size(); ++k) {
+            if (i < scene.weather.cloud_count && look)
+                textures_[i][k] = look->tiles[k].picture;
+            else
+                textures_[i][k].reset();
+        }
+    }
 }
 
 void CloudField::march(std::span<const CloudRay> rays, const CloudRange& range, float ray_rad,

@@ -3,6 +3,7 @@
 // on place, drift, age and seed alone, so that all who draw one weather draw the same clouds.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "render/cloud/cloud_light.h"
@@ -31,7 +32,8 @@ class CloudField final : public CloudSource {
 
     /// Takes the eye, the layers and the light of one frame; nothing of them is kept. Layers without
     /// thickness, coverage or finite numbers are left out, and so are those of kImpostor. kAuto is kVolume,
-    /// but ice clouds, which are thin, are sheets then, in the volume's light. Allocates nothing.
+    /// but ice clouds, which are thin, and those that have a look are sheets then, in the volume's light.
+    /// Allocates nothing.
     void freeze(const Scene& scene, const CloudLight& light) noexcept;
 
     void march(std::span<const CloudRay> rays, const CloudRange& range, float ray_rad,
@@ -47,6 +49,8 @@ class CloudField final : public CloudSource {
     std::shared_ptr<const Matrix> matrix_;
     const Kernels* kernels_;
     Field field_{};
+    /// That field_ looks into.
+    std::array<std::array<std::shared_ptr<const Texture>, 3>, Weather::kMaxClouds> textures_;
 };
 
 }  // namespace skyig::render::cloud::field

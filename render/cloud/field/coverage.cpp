@@ -43,6 +43,7 @@ std::vector<Column> columns_of(const Shape& shape, float thickness_m) {
 std::vector<float> flat_values_of(Shape shape) {
     for (Fine& fine : shape.fines)
         fine.weight = 0.0F;
+    shape.fibres.weight = 0.0F;
     std::fill(std::begin(shape.lift), std::end(shape.lift), 0.0F);
     std::vector<float> values(kColumns);
     Points points{};
@@ -81,6 +82,7 @@ float lowest_value(const Shape& shape) {
         sum += flat.weight;
     for (const Fine& fine : shape.fines)
         sum += fine.weight;
+    sum += shape.fibres.weight;
     return -0.5F * sum;
 }
 

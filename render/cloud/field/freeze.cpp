@@ -44,6 +44,10 @@ Area area_of(const CloudLayer& cloud, double closing) {
             f32(closing)};
 }
 
+bool has_look(const CloudLayer& cloud) {
+    return cloud.look && (cloud.model == CloudModel::kLayer || cloud.model == CloudModel::kAuto);
+}
+
 // A storm grows from a tower to an anvil with its severity.
 float grown(const CloudLayer& cloud) {
     return cloud.genus == CloudGenus::kCumulonimbus ? f32(std::clamp(cloud.severity, 0.0, 1.0)) : 1.0F;
@@ -85,15 +89,16 @@ Layer layer_of(const Matrix& matrix, const CloudLayer& cloud, const sky::SeaAnch
     const double extinction = extinction_of(cloud);
     Layer layer{};
     // Ice is thin: a look shows its threads as well as a march, and sharper.
-    layer.slab_lit = cloud.model == CloudModel::kAuto && genus.ice;
+    layer.slab_lit = cloud.model == CloudModel::kAuto && (genus.ice || has_look(cloud));
     layer.sheet = layer.slab_lit || cloud.model == CloudModel::kLayer;
-    if (cloud.model == CloudModel::kLayer && cloud.look) {
+    if (has_look(cloud)) {
         layer.shape = shape_of(matrix.noise, *cloud.look, place);
         tell(cloud, layer);
     } else {
         layer.shape = shape_of(matrix.noise, cloud.genus, place);
         for (std::size_t i = 0; i < 3; ++i)
             layer.shape.lift[i] = glm::mix(genus_of(kTower).lift[i], layer.shape.lift[i], grown(cloud));
+        layer.shape.fibres.weight *= grown(cloud);
         const auto drawn = layer.sheet ? Coverage::Drawn::kSheet : Coverage::Drawn::kVolume;
         layer.threshold = threshold_of(matrix.coverage, cloud, cloud.coverage, drawn);
         layer.dry = threshold_of(matrix.coverage, cloud, 0.0, drawn) - layer.threshold + 0.5F;
@@ -233,7 +238,7 @@ void tint(Shine& shine, const glm::vec3& colour) {
 }
 
 void colour_layer(const CloudLayer& cloud, Layer& layer) {
-    if (cloud.model != CloudModel::kLayer || !cloud.look) return;
+    if (!has_look(cloud)) return;
     const glm::vec3 colour = glm::max(glm::vec3(cloud.look->colour), glm::vec3(0.0F));
     for (LayerBeam& beam : layer.beams)
         tint(beam.lx, colour);

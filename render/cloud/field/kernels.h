@@ -4,13 +4,16 @@
 
 namespace skyig::render::cloud::field {
 
-/// One look-up in a flat tile (noise.h): texel places are turn * (east, north) + at. Values are -0.5..0.5.
+/// One look-up in a flat tile (noise.h, texture.h): texel places are turn * (east, north) + at. Values are
+/// -0.5..0.5.
 struct Flat {
     const unsigned* sheet;
     float turn[4];  // xx, xy, yx, yy; texels a metre
     float at[2];    // of the eye, texels
     float weight;
-    float wave_m;  // its finest feature
+    float wave_m;            // its finest feature
+    const unsigned* starts;  // of a Texture's levels; null: noise
+    int side_log2;           // likewise
 };
 
 /// One look-up in the solid tile.
@@ -30,6 +33,7 @@ struct Shape {
     Flat flats[3];  // the first is the largest, and pushes the others about
     float push[2];  // texels of flats[1] per value of flats[0]
     Fine fines[2];
+    Flat fibres;    // added high in the layer: an anvil's
     float lift[3];  // of q, q^2, q^3
     float edge;     // the value over the threshold at which density is full
     float reach_m;  // how far from cloud a value of -1 lies at least, along the ground

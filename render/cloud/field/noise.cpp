@@ -6,6 +6,8 @@
 #include <glm/glm.hpp>
 #include <numeric>
 
+#include "render/cloud/field/texture.h"
+
 namespace skyig::render::cloud::field {
 namespace {
 
@@ -138,23 +140,6 @@ std::vector<std::uint8_t> ranks(const std::vector<float>& values) {
     for (std::size_t i = 0; i < order.size(); ++i)
         ranked[order[i]] = static_cast<std::uint8_t>(i * 256 / order.size());
     return ranked;
-}
-
-// Slices of size x size.
-std::vector<std::uint32_t> packed(const std::vector<std::uint8_t>& bytes, std::size_t size) {
-    std::vector<std::uint32_t> entries(bytes.size());
-    const std::size_t slice = size * size;
-    for (std::size_t i = 0; i < bytes.size(); ++i) {
-        const std::size_t x = i % size;
-        const std::size_t row = i - x;
-        const std::size_t next = row % slice + size == slice ? row + size - slice : row + size;
-        const std::size_t right = (x + 1) % size;
-        entries[i] = static_cast<std::uint32_t>(bytes[i]) |
-                     static_cast<std::uint32_t>(bytes[row + right]) << 8U |
-                     static_cast<std::uint32_t>(bytes[next + x]) << 16U |
-                     static_cast<std::uint32_t>(bytes[next + right]) << 24U;
-    }
-    return entries;
 }
 
 }  // namespace

@@ -6,19 +6,15 @@
 #include <span>
 #include <vector>
 
+#include "render/weather.h"
+
 namespace skyig::render::cloud::field {
 
 /// What a flat tile looks like from above.
-enum class Sheet : std::uint8_t {
-    kPuffs,   // heaps of several sizes
-    kSmooth,  // Perlin noise, five octaves
-    kCells,   // cells of one size, near a grid
-    kFibres,  // long threads that wind (domain warp)
-};
+using Sheet = CloudNoise;
 inline constexpr std::size_t kSheets = 4;
 
-/// Tiles of bytes, periodic. Each entry holds a texel and its next neighbours along x, y and both, lowest
-/// byte first: one fetch serves a bilinear look-up. Values of a sheet are spread evenly over 0..255 (each is
+/// Tiles of bytes, periodic, as packed() has them. Values of a sheet are spread evenly over 0..255 (each is
 /// a rank among all), so that the part of the area above a value is known.
 class Noise {
   public:

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "render/cloud/field/texture.h"
 
 namespace skyig::render::cloud::field {
 namespace {
@@ -44,6 +47,8 @@ constexpr Genus cumulonimbus() {
                 {Sheet::kPuffs, turned(9, -4), 0.16F}}};
     g.push = {0.05F, 0.03F};
     g.fines = {{{turned(27, 11), 4200.0F, 0.25F}, {turned(107, 44), 1200.0F, 0.12F}}};
+    // Along the same way as cirrus: streaks of 9 km by 700 m.
+    g.fibres = {Sheet::kFibres, drawn(5, 1, 2), 0.40F};
     // Full grown: a trunk that is wide at its base, and the anvil that spreads over it.
     g.lift = {2.2F, -8.3F, 6.2F};
     g.edge = 0.30F;
@@ -225,7 +230,18 @@ Flat flat_of(const Noise& noise, const GenusFlat& told, const Laid& laid) {
             {laid.turn[0], laid.turn[1], laid.turn[2], laid.turn[3]},
             {laid.at[0], laid.at[1]},
             told.weight,
-            static_cast<float>(tile_m(told.turn) * kFlatWave)};
+            static_cast<float>(tile_m(told.turn) * kFlatWave),
+            nullptr,
+            0};
+}
+
+Flat flat_of(const Texture& texture, const GenusFlat& told, const Laid& laid) {
+    // Waves of two texels are gone at a grain of two: a level serves from 1.4 of its texels on.
+    const double wave_m = std::numbers::sqrt2 * tile_m(told.turn) / texture.side();
+    return {texture.entries().data(),   {laid.turn[0], laid.turn[1], laid.turn[2], laid.turn[3]},
+            {laid.at[0], laid.at[1]},   told.weight,
+            static_cast<float>(wave_m), texture.starts().data(),
+            texture.side_log2()};
 }
 
 Fine fine_of(const Noise& noise, const GenusFine& told, const Laid& laid, double risen_m) {
@@ -265,6 +281,8 @@ Shape shape_of(const Noise& noise, CloudGenus which, const ShapePlace& place) no
                                      seed, static_cast<std::uint32_t>(8 + k)),
                                  moved_m);
     }
+    shape.fibres = flat_of(noise, genus.fibres,
+                           lay(genus.fibres.turn, Noise::kSheetSize, place.east_m, place.north_m, seed, 12));
     for (std::size_t i = 0; i < 2; ++i)
         shape.push[i] = genus.push[i] * static_cast<float>(Noise::kSheetSize);
     for (std::size_t i = 0; i < 3; ++i)
@@ -279,11 +297,12 @@ Shape shape_of(const Noise& noise, const CloudLook& look, const ShapePlace& plac
     for (std::size_t k = 0; k < look.tiles.size(); ++k) {
         const CloudLook::Tile& tile = look.tiles[k];
         const int times = std::clamp(tile.times, 1, 4096);
-        const GenusFlat flat{Sheet::kSmooth, {times, 0, 0, times}, static_cast<float>(tile.weight)};
-        shape.flats[k] = flat_of(
-            noise, flat,
-            lay(flat.turn, Noise::kSheetSize, place.east_m - tile.scroll_m_s.x * place.age_s,
-                place.north_m - tile.scroll_m_s.y * place.age_s, place.seed, static_cast<std::uint32_t>(k)));
+        const GenusFlat flat{tile.noise, {times, 0, 0, times}, static_cast<float>(tile.weight)};
+        const double size = tile.picture ? tile.picture->side() : Noise::kSheetSize;
+        const Laid laid =
+            lay(flat.turn, size, place.east_m - tile.scroll_m_s.x * place.age_s,
+                place.north_m - tile.scroll_m_s.y * place.age_s, place.seed, static_cast<std::uint32_t>(k));
+        shape.flats[k] = tile.picture ? flat_of(*tile.picture, flat, laid) : flat_of(noise, flat, laid);
     }
     shape.edge = 1.0F;
     shape.reach_m = 100.0F;

@@ -44,6 +44,8 @@ struct Genus {
     /// How far the first pushes the second, in tiles of it, per unit of value.
     std::array<float, 2> push{};
     std::array<GenusFine, 2> fines{};
+    /// Of the anvil.
+    GenusFlat fibres{};
     std::array<float, 3> lift{};
     float edge = 0.2F;
     float reach_m = 200.0F;

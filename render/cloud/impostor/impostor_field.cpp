@@ -159,6 +159,9 @@ void ImpostorField::place(const ImpostorClouds& clouds, const Cloud& cloud, cons
                           const Eye& eye) noexcept {
     Placed& placed = placed_[placed_count_++];
     placed = {};
+    placed.layer = &clouds;
+    placed.cloud = static_cast<std::uint32_t>(&cloud - clouds.clouds().data());
+    placed.key = cloud.key;
     placed.middle_m = glm::vec3{clouds.middle_m(cloud, eye)};
     placed.distance_m = glm::length(placed.middle_m);
     // A picture may still show more than there is by now, and a little beside its place.

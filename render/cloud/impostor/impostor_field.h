@@ -32,6 +32,10 @@ class ImpostorField final : public CloudSource {
     void march(std::span<const CloudRay> rays, const CloudRange& range, float ray_rad,
                std::span<CloudSample> out) const noexcept override;
 
+    /// By particles, as they are when it is asked.
+    void shadow(const CloudBeam& beam, float grain_m, std::span<const glm::vec2> ground_m,
+                std::span<float> passed) const noexcept override;
+
     /// Clouds that stand in the way of some ray.
     [[nodiscard]] std::size_t cloud_count() const noexcept { return placed_count_; }
 
@@ -60,6 +64,10 @@ class ImpostorField final : public CloudSource {
         float bound_m = 0.0F;
         std::array<Board, 2> boards{};
         float boards_part = 1.0F;
+        /// Where its particles are, while its cell has the same cloud.
+        const ImpostorClouds* layer = nullptr;
+        std::uint32_t cloud = 0;
+        std::uint32_t key = 0;
         /// Index into near_; < 0: none.
         int near = -1;
         /// Of it all: clouds fade at the end of their layer's range.
@@ -88,6 +96,8 @@ class ImpostorField final : public CloudSource {
     [[nodiscard]] CloudSample follow(const glm::vec3& ray, const CloudRange& range,
                                      float ray_rad) const noexcept;
     [[nodiscard]] float ground_m(const glm::vec3& ray) const noexcept;
+    struct Shade;
+    void add_shade(const Placed& cloud, Shade& shade) const noexcept;
 
     std::vector<Candidate> candidates_;
     std::vector<Placed> placed_;

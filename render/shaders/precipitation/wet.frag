@@ -3,6 +3,7 @@
 // rings of drops near the eye. Before it has been drawn the things themselves under their air.
 #include "common/scalar.glsl"
 #include "eye/tone.glsl"
+#include "common/fresnel.glsl"
 
 uniform ToneParameters u_tone;
 uniform vec3 u_far_centre;       // as in sky/deferred.vert
@@ -60,13 +61,9 @@ void main() {
     vec2 tile = fract(u_tile_at_eye + place.xy / u_tile_m);
     vec2 slope = resolved * texture(u_slopes, (tile * (u_tile_texels - 1.0) + 0.5) / u_tile_texels).xy;
     vec3 water = normalize(vec3(-slope, 1.0));
-    // A film is not level everywhere.
-    const float kSlopeVariance = 0.01;
-    float up = max(-dot(view, water), 0.0);
-    float cosine = min(sqrt(up * up + kSlopeVariance), 1.0);
     vec3 mirrored = reflect(view, water);
-    mirrored.z = sqrt(max(mirrored.z, 0.0) * max(mirrored.z, 0.0) + kSlopeVariance);
-    float reflectance = 0.02 + 0.98 * pow(1.0 - cosine, 5.0);
+    mirrored.z = sqrt(max(mirrored.z, 0.0) * max(mirrored.z, 0.0) + film_slope_variance());
+    float reflectance = film_reflectance(max(-dot(view, water), 0.0));
     float passed = exp(-u_extinction_per_m * distance_m);
     // Things seen from below are dry.
     float share = view.z < 0.0 ? level : 0.0;

@@ -17,7 +17,7 @@
 namespace skyig::protocol::cigi {
 namespace {
 
-struct Row {
+struct Field {
     std::string place;
     std::string name;
     std::string type;
@@ -26,7 +26,7 @@ struct Row {
 struct Table {
     unsigned long id = 0;
     unsigned long size = 0;  // 0: varies
-    std::vector<Row> rows;
+    std::vector<Field> rows;
 };
 
 /// By packet name and version.
@@ -124,7 +124,7 @@ std::size_t compare(const Table& table, Version version) {
         if (place.present) ours[std::string(field.name)] = {place_text(place), type_text<Value>(place)};
     });
     EXPECT_EQ(ours.size(), table.rows.size()) << Layout<P>::kName;
-    for (const Row& row : table.rows) {
+    for (const Field& row : table.rows) {
         EXPECT_EQ(ours[row.name].first, row.place) << Layout<P>::kName << "." << row.name;
         EXPECT_EQ(ours[row.name].second, row.type) << Layout<P>::kName << "." << row.name;
     }

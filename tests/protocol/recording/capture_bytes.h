@@ -14,6 +14,9 @@ namespace skyig::protocol::recording {
 
 using ByteVector = std::vector<std::byte>;
 
+/// A time whose every digit counts.
+inline constexpr std::int64_t kTime_ns = 1'718'978'566'123'456'789;
+
 struct Builder {
     explicit Builder(ByteOrder file_order) : order(file_order) {}
 

@@ -19,7 +19,6 @@ namespace skyig::protocol::recording {
 namespace {
 
 using testing::HasSubstr;
-constexpr std::int64_t kTime_ns = 1'718'978'566'123'456'789;
 
 struct Seen {
     std::int64_t time_ns;

@@ -15,7 +15,6 @@ namespace skyig::protocol::recording {
 namespace {
 
 using testing::HasSubstr;
-constexpr std::int64_t kTime_ns = 1'718'978'566'123'456'789;
 constexpr transport::Endpoint kHost{0xC0A80102, 8005};
 constexpr transport::Endpoint kUs{0x7F000001, 8004};
 

@@ -245,6 +245,58 @@ TEST(ShadowMap, GrowingCloudsChangeItWithoutAPop) {
     EXPECT_EQ(map.revision(), at_rest);
 }
 
+TEST(ShadowMap, RestsWhileCloudsDoNothingButDrift) {
+    Day day(0.5, 40.0);
+    ShadowMap map;
+    day.update(map, maker(), 0.5);
+    const std::uint64_t made = map.revision();
+    // Ten metres a second for four seconds, and then as many until the shapes have changed.
+    int frame = 1;
+    for (; frame <= 120; ++frame) {
+        day.layer().age_s = frame / 30.0;
+        day.layer().drift_m = {frame / 3.0, 0.0};
+        day.update(map, maker(), 0.5);
+    }
+    EXPECT_EQ(map.revision(), made);
+    EXPECT_NEAR(map.origin_m().x, 40.0, 1e-9);
+    for (; frame <= 480; ++frame) {
+        day.layer().age_s = frame / 30.0;
+        day.layer().drift_m = {frame / 3.0, 0.0};
+        day.update(map, maker(), 0.5);
+    }
+    EXPECT_GT(map.revision(), made);
+}
+
+TEST(ShadowMap, ASunThatRisesBringsShadowsInFromTheMean) {
+    const Day day(0.5, 40.0);
+    ShadowMap map, anew;
+    day.update(anew, maker(), 0.5);
+    day.update(map, maker(), 0.5);
+    map.stop();
+    day.update(map, maker(), 0.5);
+    EXPECT_TRUE(map.shown());
+    EXPECT_EQ(map.contrast(), 0.0F);
+    const auto line = [](const ShadowMap& of) {
+        std::vector<float> passed;
+        for (int i = 0; i < 400; ++i)
+            passed.push_back(of.at({31.0F * static_cast<float>(i - 200), -500.0F}));
+        return passed;
+    };
+    std::vector<float> before = line(map);
+    float worst = 0.0F;
+    for (int frame = 0; frame <= 2 * ShadowMap::kFrames; ++frame) {
+        day.update(map, maker(), 0.5);
+        const std::vector<float> now = line(map);
+        for (std::size_t i = 0; i < now.size(); ++i)
+            worst = std::max(worst, std::abs(now[i] - before[i]));
+        before = now;
+    }
+    std::printf("shadows come in: contrast %.3f, the largest step of a frame %.4f\n",
+                static_cast<double>(map.contrast()), static_cast<double>(worst));
+    EXPECT_EQ(before, line(anew));
+    EXPECT_LT(worst, 0.03F);
+}
+
 TEST(ShadowMap, PlanSaysWhetherAnyAreCast) {
     Day day(0.5, 50.0);
     tests::LitTables lit(day.scene);

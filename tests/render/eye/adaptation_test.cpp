@@ -126,6 +126,18 @@ TEST(Adaptation, TargetIsTheLogAverageWithoutFallingToZero) {
     EXPECT_NEAR(orbit.log_average_cd_m2(), 1000.0 / 3.0, 1e-9);
 }
 
+TEST(Adaptation, AFewBrightDirectionsAreNotTheBrightPart) {
+    std::array<double, kProbeCount> luminances{};
+    luminances.fill(3000.0);
+    for (std::size_t i = 0; i < 6; ++i)
+        luminances[12 * i] = 2e5;
+    luminances[1] = std::nan("");
+    EXPECT_DOUBLE_EQ(bright_part_cd_m2(luminances), 3000.0);
+    for (std::size_t i = 30; i < 40; ++i)
+        luminances[i] = 20000.0;
+    EXPECT_DOUBLE_EQ(bright_part_cd_m2(luminances), 20000.0);
+}
+
 TEST(Adaptation, ProbesOfAViewStandForAllOfIt) {
     ChannelView view;
     view.frustum = {-0.9, 0.3, -0.4, 0.8};

@@ -109,5 +109,35 @@ TEST(Shown, NightTurnsBlueGreyAndDayKeepsItsColours) {
     EXPECT_NEAR(shaders64::luminance_709(grey), 1.0, 2e-3);
 }
 
+TEST(ToneCurve, ByDayBrightPartsAreShownBelowTheShoulder) {
+    const DisplaySettings display;
+    const auto white_parts = [&](double luminance, double adaptation) {
+        return shaders64::display_linear(glm::dvec3{luminance}, tone_parameters(display, adaptation)).y;
+    };
+    // A dark blue sky over sunlit clouds.
+    const double sky = 3700.0;
+    const double clouds = 35000.0;
+    const double adapted = adaptation_to_bright(display, sky, clouds);
+    std::printf("clouds of %.0f cd/m2: adapted to %.0f not %.0f, shown at %.3f of white, not %.2f\n", clouds,
+                adapted, sky, white_parts(clouds, adapted), white_parts(clouds, sky));
+    EXPECT_GT(white_parts(clouds, sky), 1.5);
+    EXPECT_NEAR(white_parts(clouds, adapted), display.shoulder, 1e-3);
+    // Nothing happens where there is room, by night, or for an operator without any.
+    EXPECT_EQ(adaptation_to_bright(display, 5000.0, 9000.0), 5000.0);
+    EXPECT_EQ(adaptation_to_bright(display, 5000.0, 2000.0), 5000.0);
+    EXPECT_EQ(adaptation_to_bright(display, 90.0, 4000.0), 90.0);
+    DisplaySettings linear;
+    linear.tone = ToneOperator::kLinear;
+    EXPECT_EQ(adaptation_to_bright(linear, sky, clouds), sky);
+    // Brighter parts never lower it, and it moves without a step.
+    double last = sky;
+    for (double bright = sky; bright < 1e5; bright *= 1.01) {
+        const double now = adaptation_to_bright(display, sky, bright);
+        EXPECT_GE(now, last);
+        EXPECT_LT(now, 1.02 * last);
+        last = now;
+    }
+}
+
 }  // namespace
 }  // namespace skyig::render::eye

@@ -19,6 +19,8 @@
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 
+#include "tests/support/monitor_switch.h"
+
 namespace skyig::render {
 namespace {
 
@@ -222,6 +224,45 @@ TEST(Desktop, CoversAMonitorAndNamesThoseThereAreWhenItIsNotThere) {
         EXPECT_THAT(error.what(),
                     testing::HasSubstr("there is no monitor \"HDMI-7\"; there is 0 \"screen\""));
     }
+}
+
+TEST(Desktop, AWindowWhoseMonitorIsGoneWaitsForItAndShowsItsPictureAgain) {
+    Onlooker onlooker;
+    skyig::tests::MonitorSwitch monitor;
+    // By number: what it means is settled when the window is made.
+    Desktop desktop({{"whole", "0", 0, 0, 64, 64, true, {{0, 0, 0, kWidth_px, kHeight_px}}},
+                     {"framed", "", 1400, 0, 64, 64, false, {{1, 0, 0, 64, 64}}}},
+                    true);
+    Renderer renderer({{"one", kWidth_px, kHeight_px}, {"two", 64, 64}}, {});
+    Scene scene = afternoon();
+    scene.view_count = 2;
+    renderer.prepare(scene);
+    renderer.draw(0);
+    renderer.draw(1);
+    const std::vector<std::byte> picture = drawn(renderer, 0);
+    const std::vector<Shown> shown = pictures(renderer);
+    ASSERT_TRUE(shows(desktop, onlooker, shown, 0, picture));
+    const auto hides = [&](bool wanted) {
+        for (int tries = 0; tries < 100 && desktop.hides(0) != wanted; ++tries) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            EXPECT_TRUE(desktop.present(shown));
+        }
+        return desktop.hides(0) == wanted;
+    };
+    for (int time = 0; time < 3; ++time) {
+        EXPECT_FALSE(desktop.hides(0));
+        monitor.off();
+        EXPECT_TRUE(hides(true)) << time;
+        // What is on no monitor by its settings goes on.
+        EXPECT_FALSE(desktop.hides(1));
+        EXPECT_NE(onlooker.look(0, 0, kWidth_px, kHeight_px), picture);
+        for (int frame = 0; frame < 20; ++frame)
+            EXPECT_TRUE(desktop.present(shown));
+        monitor.on();
+        EXPECT_TRUE(hides(false)) << time;
+        EXPECT_TRUE(shows(desktop, onlooker, shown, 0, picture)) << time;
+    }
+    EXPECT_EQ(renderer.gl_errors(), 0U);
 }
 
 TEST(Desktop, WithoutADisplaySaysWhatToDo) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "protocol/cigi/message.h"
+#include "server/status/account.h"
 #include "tests/server/loop/loop_fixture.h"
 #include "tests/support/allocation_count.h"
 
@@ -122,19 +123,50 @@ TEST_F(FrameLoopTest, NamesAChannelThatCannotBeDrawn) {
     loop();
     loop_->run_frame();
     EXPECT_TRUE(lines_.empty()) << ::testing::PrintToString(lines_);
-    painter_.channel_health.failed = true;
+    painter_.channel_health.failed = painter_.channel_health.crossed_out = true;
     painter_.channel_health.failures = 1;
     painter_.channel_health.set_reason("out of wonders");
     for (int i = 0; i < 20; ++i)
         loop_->run_frame();
     ASSERT_EQ(lines_.size(), 1U) << ::testing::PrintToString(lines_);
-    EXPECT_THAT(lines_[0], HasSubstr("channel centre cannot be drawn: out of wonders"));
+    EXPECT_THAT(lines_[0],
+                HasSubstr("channel centre cannot be drawn: out of wonders; it is crossed out in red"));
     EXPECT_TRUE(status_->newest().health[0].failed);
     EXPECT_EQ(status_->newest().health[0].reason(), "out of wonders");
     painter_.channel_health.failed = false;
     loop_->run_frame();
     ASSERT_EQ(lines_.size(), 2U) << ::testing::PrintToString(lines_);
     EXPECT_THAT(lines_[1], HasSubstr("channel centre is drawn again, after 1 failures"));
+}
+
+TEST_F(FrameLoopTest, OfALostDevicesChannelsItSaysThatNothingIsShown) {
+    loop();
+    painter_.channel_health.failed = true;
+    painter_.channel_health.set_reason("no device");
+    loop_->run_frame();
+    ASSERT_EQ(lines_.size(), 1U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[0], HasSubstr("cannot be drawn: no device; nothing is shown of it until then"));
+}
+
+TEST_F(FrameLoopTest, TellsOfAMonitorThatIsGoneAndGoesOn) {
+    loop();
+    loop_->run_frame();
+    painter_.hidden = true;
+    for (int i = 0; i < 50; ++i)
+        EXPECT_TRUE(loop_->run_frame());
+    ASSERT_EQ(lines_.size(), 1U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[0], HasSubstr("channel centre is not shown: its monitor is gone"));
+    EXPECT_TRUE(status_->newest().hidden[0]);
+    const status::Facts facts = loop_->facts();
+    const status::Health health = status::health_of(facts, status_->newest(), clock_.monotonic_ns());
+    EXPECT_FALSE(health.good);
+    EXPECT_EQ(health.text, "channel centre is not shown: its monitor is gone");
+    painter_.hidden = false;
+    for (int i = 0; i < 20; ++i)
+        loop_->run_frame();
+    ASSERT_EQ(lines_.size(), 2U) << ::testing::PrintToString(lines_);
+    EXPECT_THAT(lines_[1], HasSubstr("channel centre is shown again"));
+    EXPECT_FALSE(status_->newest().hidden[0]);
 }
 
 TEST_F(FrameLoopTest, OverlayTellsModeRateAndTheHostThatIsLost) {
@@ -311,10 +343,10 @@ TEST_F(FrameLoopTest, TellsOfDatagramsThatTheReceiverDropped) {
 TEST_F(FrameLoopTest, HandsEveryNthFrameToTheImageWriter) {
     std::vector<std::string> paths;
     ImageWriter images(
-        "out", render_channels(config_), 8,
-        [&](const std::string& path, const render::Channel&, std::span<const std::byte> rgba, std::string&) {
-            EXPECT_EQ(rgba.size(), 8U * 4 * 4);
-            EXPECT_EQ(rgba[5], std::byte{1});
+        {"out", render_channels(config_), 8},
+        [&](const std::string& path, const ImageWriter::Frame& frame, std::size_t channel, std::string&) {
+            EXPECT_EQ(frame.channels[channel].size(), 8U * 4 * 4);
+            EXPECT_EQ(frame.channels[channel][5], std::byte{1});
             paths.push_back(path);
             return true;
         });
@@ -323,6 +355,23 @@ TEST_F(FrameLoopTest, HandsEveryNthFrameToTheImageWriter) {
     EXPECT_EQ(paths, (std::vector<std::string>{"out/centre_000005.png", "out/centre_000010.png",
                                                "out/centre_000015.png", "out/centre_000020.png"}));
     EXPECT_EQ(loop_->report().images_written, 4U);
+}
+
+TEST_F(FrameLoopTest, HandsScenesToWhoDrawsThemItself) {
+    std::map<std::string, double> latitudes_deg;
+    ImageWriter images(
+        {"out", render_channels(config_), 8, ImageWriter::Takes::kScene, "exr"},
+        [&](const std::string& path, const ImageWriter::Frame& frame, std::size_t, std::string&) {
+            EXPECT_TRUE(frame.channels.empty());
+            EXPECT_EQ(frame.scene.frame_number, frame.number);
+            latitudes_deg[path] = frame.scene.eye.latitude_deg;
+            return true;
+        });
+    link_.put(kHost, Message(cigi::Version::k33, cigi::IgMode::kOperate, 1).at(45.0).bytes());
+    loop(10, &images, 5).run([] { return false; });
+    images.finish();
+    ASSERT_EQ(latitudes_deg.size(), 2U);
+    EXPECT_NEAR(latitudes_deg.at("out/centre_000010.exr"), 45.0, 1e-9);
 }
 
 TEST_F(FrameLoopTest, PublishesASnapshotTenTimesASecond) {
@@ -356,9 +405,8 @@ TEST_F(FrameLoopTest, PublishesASnapshotTenTimesASecond) {
 
 TEST_F(FrameLoopTest, AllocatesNothingInSteadyState) {
     config_.overlay = {.mode = true, .rate = true, .host = true, .host_lost = true};
-    ImageWriter images("out", render_channels(config_), 2,
-                       [](const std::string&, const render::Channel&, std::span<const std::byte>,
-                          std::string&) { return true; });
+    ImageWriter images({"out", render_channels(config_), 2}, [](const std::string&, const ImageWriter::Frame&,
+                                                                std::size_t, std::string&) { return true; });
     loop();
     std::deque<Message> messages;
     for (std::uint32_t i = 1; i <= 1100; ++i)

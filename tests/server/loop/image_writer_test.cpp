@@ -15,9 +15,9 @@ std::vector<render::Channel> two_channels() {
 TEST(ImageWriter, WritesEveryChannelUnderItsNameAndFrameNumber) {
     std::map<std::string, std::vector<std::byte>> files;
     ImageWriter writer(
-        "out", two_channels(), 2,
-        [&](const std::string& path, const render::Channel&, std::span<const std::byte> rgba, std::string&) {
-            files[path].assign(rgba.begin(), rgba.end());
+        {"out", two_channels(), 2},
+        [&](const std::string& path, const ImageWriter::Frame& frame, std::size_t channel, std::string&) {
+            files[path] = frame.channels[channel];
             return true;
         });
     ImageWriter::Frame* frame = writer.try_acquire();
@@ -38,12 +38,11 @@ TEST(ImageWriter, WritesEveryChannelUnderItsNameAndFrameNumber) {
 TEST(ImageWriter, SkipsAndCountsWhenAllBuffersAreUnderWay) {
     std::promise<void> disk_ready;
     const std::shared_future<void> ready = disk_ready.get_future().share();
-    ImageWriter writer(
-        "out", {{"only", 1, 1}}, 2,
-        [ready](const std::string&, const render::Channel&, std::span<const std::byte>, std::string&) {
-            ready.wait();
-            return true;
-        });
+    ImageWriter writer({"out", {{"only", 1, 1}}, 2},
+                       [ready](const std::string&, const ImageWriter::Frame&, std::size_t, std::string&) {
+                           ready.wait();
+                           return true;
+                       });
     for (int i = 0; i < 2; ++i) {
         ImageWriter::Frame* frame = writer.try_acquire();
         ASSERT_NE(frame, nullptr);
@@ -60,12 +59,11 @@ TEST(ImageWriter, SkipsAndCountsWhenAllBuffersAreUnderWay) {
 TEST(ImageWriter, FlushesAllPendingInOrder) {
     std::vector<std::string> paths;
     {
-        ImageWriter writer(
-            "d", {{"c", 1, 1}}, 3,
-            [&](const std::string& path, const render::Channel&, std::span<const std::byte>, std::string&) {
-                paths.push_back(path);
-                return true;
-            });
+        ImageWriter writer({"d", {{"c", 1, 1}}, 3}, [&](const std::string& path, const ImageWriter::Frame&,
+                                                        std::size_t, std::string&) {
+            paths.push_back(path);
+            return true;
+        });
         for (std::uint64_t i = 1; i <= 3; ++i) {
             ImageWriter::Frame* frame = writer.try_acquire();
             ASSERT_NE(frame, nullptr);
@@ -78,12 +76,11 @@ TEST(ImageWriter, FlushesAllPendingInOrder) {
 
 TEST(ImageWriter, CountsFailuresAndKeepsTheFirstReason) {
     int calls = 0;
-    ImageWriter writer(
-        "d", two_channels(), 1,
-        [&](const std::string& path, const render::Channel&, std::span<const std::byte>, std::string& error) {
-            error = path + ": disk full " + std::to_string(++calls);
-            return false;
-        });
+    ImageWriter writer({"d", two_channels(), 1}, [&](const std::string& path, const ImageWriter::Frame&,
+                                                     std::size_t, std::string& error) {
+        error = path + ": disk full " + std::to_string(++calls);
+        return false;
+    });
     ImageWriter::Frame* frame = writer.try_acquire();
     ASSERT_NE(frame, nullptr);
     writer.submit(frame);

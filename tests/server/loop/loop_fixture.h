@@ -50,7 +50,10 @@ class FakePainter final : public Painter {
     std::string description() const override { return "fake"; }
     status::ChannelHealth health(std::size_t /*channel*/) const override { return channel_health; }
 
+    bool hides(std::size_t /*channel*/) const override { return hidden; }
+
     status::ChannelHealth channel_health;
+    bool hidden = false;
     std::uint64_t device_resets = 0;
     render::Scene last_scene;
     std::int64_t prepare_ns = 1 * kMs;

@@ -302,6 +302,19 @@ TEST(Replay, WhatCannotBeReplayedIsOneLine) {
                 HasSubstr("rig.pcapng: made at 50 Hz; the settings say daemon.rate_hz = 60"));
 }
 
+TEST(Replay, RecordingOfAnotherVersionIsRefusedByName) {
+    const Scratch scratch;
+    for (const char* version : {"skyig recording 2", "skyig recording 9"}) {
+        std::string bytes = Scratch::read(record(scratch, rig()));
+        const std::size_t at = bytes.find(kRecordingTitle);
+        ASSERT_NE(at, std::string::npos);
+        bytes.replace(at, std::string_view(version).size(), version);
+        EXPECT_THAT(refusal(scratch.write("other.pcapng", bytes)),
+                    HasSubstr(std::string("other.pcapng: is a \"") + version +
+                              "\"; this program replays \"skyig recording 1\""));
+    }
+}
+
 TEST(ReplayPace, GoesByTheRecordingAndSleepsOnTheWall) {
     const Scratch scratch;
     const config::Config config = rig();

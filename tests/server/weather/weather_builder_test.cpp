@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "config/warp/grey_map.h"
+#include "render/cloud/field/texture.h"
 #include "server/start_weather/layers.h"
+#include "server/world/conditions.h"
 #include "tests/server/weather/weather_bench.h"
 
 namespace skyig::server::weather {
@@ -48,6 +51,38 @@ TEST(WeatherBuilder, ADayOfWindHasNoJump) {
     bench.send(wind(30.0F, 0.0F));
     bench.frame(1.0 / 60.0);
     EXPECT_LT(glm::distance(bench.weather().clouds[0].drift_m, shown.drift_m), 1.0);
+}
+
+TEST(WeatherBuilder, CloudsOfATypeLookAsTheirSheetSays) {
+    config::Config config = world::three_channels();
+    config::WeatherSheet sheet;
+    sheet.type = config::LayerType::kCirrus;
+    sheet.colour = {1.0, 0.9, 0.8};
+    sheet.textures.resize(2);
+    config::warp::GreyMap grey{16, 16, std::vector<float>(256, 0.25F)};
+    sheet.textures[0].image = std::make_shared<config::warp::GreyMap>(std::move(grey));
+    sheet.textures[0].size_m = 30'000.0;
+    sheet.textures[1].noise = config::CloudNoise::kFibres;
+    sheet.textures[1].scroll_m_s = 10.0;
+    sheet.textures[1].scroll_from_deg = 270.0;
+    config.weather.sheets.push_back(sheet);
+    WeatherBench bench(config);
+    bench.send(cloud(1, CloudType::kCirrus, 9000.0F, 50.0F), cloud(2, CloudType::kCumulus, 1000.0F, 50.0F));
+    const render::Weather& weather = bench.frame(1.0).weather;
+    ASSERT_EQ(weather.cloud_count, 2U);
+    for (const render::CloudLayer& layer : weather.all_clouds()) {
+        const bool cirrus = layer.genus == render::CloudGenus::kCirrus;
+        ASSERT_EQ(layer.look.has_value(), cirrus);
+        if (!cirrus) continue;
+        const auto& tiles = layer.look->tiles;
+        ASSERT_TRUE(tiles[0].picture);
+        EXPECT_EQ(tiles[0].picture->side(), 16);
+        EXPECT_EQ(tiles[0].times, 4);
+        EXPECT_EQ(tiles[1].noise, render::CloudNoise::kFibres);
+        EXPECT_NEAR(tiles[1].scroll_m_s.x, 10.0, 1e-9);
+        EXPECT_EQ(tiles[2].weight, 0.0);
+        EXPECT_EQ(layer.look->colour.z, 0.8);
+    }
 }
 
 TEST(WeatherBuilder, TheEyeHasItsOwnVelocityAndWind) {
@@ -167,6 +202,54 @@ TEST(WeatherBuilder, RainSoaksTheLandInMinutesAndItDriesInHalfAnHour) {
     bench.send(rain);
     bench.frame(100.0);
     EXPECT_EQ(bench.scene.ground.wet, 1.0);
+}
+
+TEST(WeatherBuilder, SnowWhitensTheLandUntilTheHostSaysHowMuchLies) {
+    WeatherBench bench;
+    WeatherBench replay;
+    cigi::AtmosphereControl frost = wind(5.0F, 270.0F);
+    frost.air_temperature = -3.0F;
+    cigi::WeatherControl snow = cloud(5, CloudType::kNone, 1500.0F, 100.0F);
+    snow.thickness = 1500.0F;
+    snow.severity = 3;
+    cigi::TerrestrialSurfaceControl told;
+    told.condition_id = world::kSnowCondition;
+    told.enable = true;
+    told.coverage = 20;
+    double first = 0.0, largest_step = 0.0;
+    for (WeatherBench* run : {&bench, &replay}) {
+        run->frame();
+        EXPECT_EQ(run->scene.ground.snow, 0.0);
+        run->send(frost, snow);
+        double before = 0.0;
+        for (int second = 0; second < 3600; ++second) {
+            const double now = run->frame(1.0).ground.snow;
+            largest_step = std::max(largest_step, std::abs(now - before));
+            before = now;
+        }
+        if (run == &bench) first = before;
+        EXPECT_EQ(before, first) << "the same weather, the same snow";
+        run->send(told);
+        EXPECT_DOUBLE_EQ(run->frame(1.0).ground.snow, 0.2);
+    }
+    std::printf("  an hour of snow covers %.2f, by %.1e a second at most\n", first, largest_step);
+    EXPECT_GT(first, 0.6);
+    EXPECT_LT(largest_step, 1e-3);
+    told.condition_id = world::kDryCondition;
+    bench.send(told);
+    EXPECT_DOUBLE_EQ(bench.frame(1.0).ground.snow, 0.2) << "told beside it";
+    told.condition_id = world::kSnowCondition;
+    told.enable = false;
+    bench.send(told);
+    EXPECT_DOUBLE_EQ(bench.frame(1.0).ground.snow, 0.0) << "dry";
+    told.condition_id = world::kDryCondition;
+    bench.send(told);
+    EXPECT_GT(bench.frame(1.0).ground.snow, 0.6) << "what fell meanwhile";
+    told.condition_id = world::kWetCondition;
+    told.enable = true;
+    told.coverage = 70;
+    bench.send(told);
+    EXPECT_DOUBLE_EQ(bench.frame(1.0).ground.wet, 0.7);
 }
 
 /// Least of several rounds of a frame's part.

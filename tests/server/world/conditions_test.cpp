@@ -307,19 +307,23 @@ TEST_F(ConditionsTest, SnowIsConditionOneTheRegionsOverTheGlobal) {
         control.coverage = static_cast<std::uint8_t>(coverage);
         return control;
     };
-    EXPECT_FALSE(snow_cover(surfaces_, regions()));
-    ASSERT_TRUE(surfaces_.set(snow(WeatherScope::kGlobal, 0, 90, 2)));
-    EXPECT_FALSE(snow_cover(surfaces_, regions())) << "another condition";
+    EXPECT_FALSE(condition_cover(surfaces_, regions(), kSnowCondition));
+    ASSERT_TRUE(surfaces_.set(snow(WeatherScope::kGlobal, 0, 90, kWetCondition)));
+    EXPECT_FALSE(condition_cover(surfaces_, regions(), kSnowCondition)) << "another condition";
     ASSERT_TRUE(surfaces_.set(snow(WeatherScope::kGlobal, 0, 40, kSnowCondition)));
-    EXPECT_DOUBLE_EQ(snow_cover(surfaces_, regions()).value(), 0.4);
+    EXPECT_DOUBLE_EQ(condition_cover(surfaces_, regions(), kSnowCondition).value(), 0.4);
     ASSERT_TRUE(weather_.set(region(3)));
     ASSERT_TRUE(surfaces_.set(snow(WeatherScope::kRegional, 3, 100, kSnowCondition)));
     EXPECT_TRUE(surfaces_.is_regional());
-    EXPECT_DOUBLE_EQ(snow_cover(surfaces_, regions()).value(), 1.0);
+    EXPECT_DOUBLE_EQ(condition_cover(surfaces_, regions(), kSnowCondition).value(), 1.0);
     auto off = snow(WeatherScope::kGlobal, 0, 40, kSnowCondition);
     off.enable = false;
     ASSERT_TRUE(surfaces_.set(off));
-    EXPECT_FALSE(snow_cover(surfaces_, RegionsAt()));
+    EXPECT_FALSE(condition_cover(surfaces_, RegionsAt(), kSnowCondition));
+    ASSERT_TRUE(surfaces_.set(snow(WeatherScope::kGlobal, 0, 0, kDryCondition)));
+    EXPECT_DOUBLE_EQ(condition_cover(surfaces_, RegionsAt(), kSnowCondition).value(), 0.0) << "dry is bare";
+    EXPECT_DOUBLE_EQ(condition_cover(surfaces_, RegionsAt(), kWetCondition).value(), 0.9)
+        << "what is told beside it";
 }
 
 TEST_F(ConditionsTest, WavesAreTheRegionsOverTheGlobal) {

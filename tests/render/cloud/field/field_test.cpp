@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "render/cloud/field/shapes.h"
 #include "render/cloud/slab_light.h"
 #include "tests/support/allocation_count.h"
 
@@ -123,6 +124,45 @@ TEST(CloudField, OverlappingLayersAddTheirExtinction) {
     const CloudLayer two = slab_of(1200.0, 400.0, 0.5);
     const CloudSample up = seen(scene_of({one, two}, 2.0), plain_light(), {ray_at(0.5 * kPi, 0.0)})[0];
     EXPECT_NEAR(up.transmittance, std::exp(-1.5F), 0.005F);
+}
+
+TEST(CloudField, AnvilsAreDrawnOutIntoThreads) {
+    Shape shape = shape_of(matrix()->noise, CloudGenus::kCumulonimbus, {});
+    ASSERT_GT(shape.fibres.weight, 0.0F);
+    // The threads alone.
+    for (Flat& flat : shape.flats)
+        flat.weight = 0.0F;
+    for (Fine& fine : shape.fines)
+        fine.weight = 0.0F;
+    std::fill(std::begin(shape.lift), std::end(shape.lift), 0.0F);
+    const auto values = [&](const glm::dvec2& shift_m, float height_m) {
+        std::vector<float> found;
+        Points points{};
+        for (int i = 0; i < 40 * kRays; ++i) {
+            const int lane = i % kRays;
+            points.east_m[lane] = static_cast<float>(1931.0 * i + shift_m.x);
+            points.north_m[lane] = static_cast<float>(733.0 * i + shift_m.y);
+            points.height_m[lane] = height_m;
+            if (lane + 1 < kRays) continue;
+            kernels().values(shape, 1000.0F, points);
+            found.insert(found.end(), std::begin(points.value), std::end(points.value));
+        }
+        return found;
+    };
+    const std::vector<float> there = values({}, 900.0F);
+    const auto change = [&](const glm::dvec2& shift_m) {
+        double sum = 0.0;
+        const std::vector<float> beside = values(shift_m, 900.0F);
+        for (std::size_t i = 0; i < there.size(); ++i)
+            sum += static_cast<double>(std::abs(beside[i] - there[i]));
+        return sum / static_cast<double>(there.size());
+    };
+    const double along = change(300.0 * glm::normalize(glm::dvec2{5.0, 1.0}));
+    const double across = change(300.0 * glm::normalize(glm::dvec2{-1.0, 5.0}));
+    std::printf("threads of an anvil: 300 m along them %.4f, across %.4f\n", along, across);
+    EXPECT_GT(across, 3.0 * along);
+    for (const float value : values({}, 590.0F))
+        EXPECT_EQ(value, 0.0F);
 }
 
 TEST(CloudField, LightInLanesIsTheSlabModels) {

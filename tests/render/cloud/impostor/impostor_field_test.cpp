@@ -93,6 +93,48 @@ TEST(ImpostorField, LooksLikeTheParticlesThatItStandsFor) {
     EXPECT_LE(worst, 3.0);
 }
 
+TEST(ImpostorField, ShadesTheGroundAsItsParticlesDo) {
+    Sky sky(few_cells());
+    const Moment moment = fair_weather();
+    sky.show(moment);
+    const CloudBeam beam{kSunWay, 0.0F};
+    // To the north of the eye; the truth looks up from each place.
+    constexpr std::size_t kPlaces = 300;
+    constexpr double kApart_m = 25.0;
+    std::vector<glm::vec2> places;
+    for (std::size_t i = 0; i < kPlaces; ++i)
+        places.emplace_back(0.0F, static_cast<float>(kApart_m * static_cast<double>(i)));
+    std::vector<float> passed(kPlaces);
+    sky.field.shadow(beam, 0.0F, places, passed);
+    double worst = 0.0, darkest = 1.0, brightest = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < kPlaces; ++i) {
+        Eye eye = moved_north(moment.eye, kApart_m * static_cast<double>(i));
+        eye.height_m = 0.0;
+        const ParticleField truth(sky.clouds, sky.light, eye);
+        const CloudRay up{kSunWay};
+        CloudSample sample;
+        truth.march({&up, 1}, {}, 0.0F, {&sample, 1});
+        const auto found = static_cast<double>(passed[i]);
+        worst = std::max(worst, std::abs(found - static_cast<double>(sample.transmittance)));
+        darkest = std::min(darkest, found);
+        brightest = std::max(brightest, found);
+        sum += found;
+    }
+    std::printf("of the beam is left %.3f..%.3f, %.3f off the particles' at most\n", darkest, brightest,
+                worst);
+    EXPECT_LT(darkest, 0.2);
+    EXPECT_GT(brightest, 0.98);
+    EXPECT_LT(worst, 0.06);
+    // A coarse grain keeps the mean depth, of which more light is left.
+    std::vector<float> coarse(kPlaces);
+    sky.field.shadow(beam, 300.0F, places, coarse);
+    double coarse_sum = 0.0;
+    for (const float part : coarse)
+        coarse_sum += static_cast<double>(part);
+    std::printf("in the mean %.3f, with a grain of 300 m %.3f\n", sum / kPlaces, coarse_sum / kPlaces);
+    EXPECT_NEAR(coarse_sum / kPlaces, sum / kPlaces, 0.1);
+}
+
 TEST(ImpostorField, MeetsNothingWhereThereIsNothing) {
     Sky sky(few_cells());
     sky.show(fair_weather(0.0));
