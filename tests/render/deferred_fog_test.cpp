@@ -4,12 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <vector>
 
-#include "render/cloud/field/cloud_field.h"
-#include "render/cloud/field/shapes.h"
-#include "render/clouds.h"
 #include "render/gl/texture.h"
 #include "render/weather_ramp.h"
 #include "tests/render/gl_fixture.h"
@@ -38,9 +34,7 @@ struct Wall {
         depth.update(depths);
         colour.update(std::vector<float>(std::size_t{kWidth} * kHeight * 4, cd_m2));
     }
-    bool shadows = true;
-
-    [[nodiscard]] DeferredInput input() const { return {colour.name(), depth.name(), far_m, shadows}; }
+    [[nodiscard]] DeferredInput input() const { return {colour.name(), depth.name(), far_m}; }
 };
 
 std::vector<float> light_of(Renderer& renderer, const Scene& scene, const Wall& wall) {
@@ -171,92 +165,6 @@ TEST_F(DeferredFog, TheShaderDrawsWhatDoubleSays) {
     }
     std::printf("largest difference %.2f codes\n", largest);
     EXPECT_LT(largest, 0.9);
-}
-
-// Fog of 100 m in patches over half of the ground. Along each path the depth is a sum of a metre's steps over
-// the field's own value, in double.
-struct Patches {
-    CloudLayer layer;
-    cloud::field::CloudField field{std::make_shared<const cloud::field::Matrix>()};
-
-    Patches() {
-        layer.genus = CloudGenus::kFogPatches;
-        layer.base_m = 0.0;
-        layer.thickness_m = 40.0;
-        layer.top_band_m = 10.0;
-        layer.coverage = 0.5;
-        layer.extinction_per_m = 0.028;
-        layer.seed = 5;
-        layer.drift_m = {1370.0, 760.0};
-    }
-    [[nodiscard]] double depth(const Scene& scene, const glm::dvec3& direction, double distance_m) {
-        using namespace cloud::field;
-        field.freeze(scene, {});
-        const Layer& own = field.field().layers[0];
-        double sum_m = 0.0;
-        Points points{};
-        for (double first_m = 0.0; first_m < distance_m; first_m += kRays) {
-            for (int i = 0; i < kRays; ++i) {
-                const glm::dvec3 at_m = (first_m + i + 0.5) * direction;
-                points.north_m[i] = static_cast<float>(at_m.y);
-                points.east_m[i] = static_cast<float>(at_m.x) + field.field().closing * points.north_m[i];
-                points.height_m[i] = 1.0F;
-            }
-            kernels().values(own.shape, own.thickness_m, points);
-            for (int i = 0; i < kRays && first_m + i < distance_m; ++i) {
-                const double x = std::clamp(
-                    static_cast<double>((points.value[i] - own.threshold) / own.shape.edge), 0.0, 1.0);
-                const double height_m = scene.eye.height_m + (first_m + i + 0.5) * direction.z;
-                sum_m += x * x * (3.0 - 2.0 * x) * std::clamp((50.0 - height_m) / 10.0, 0.0, 1.0);
-            }
-        }
-        return layer.extinction_per_m * sum_m;
-    }
-};
-
-// From the ground and from over the fog.
-TEST_F(DeferredFog, ABlackTargetAmongPatchesHasTheContrastOfItsPath) {
-    Patches patches;
-    double largest = 0.0;
-    int compared = 0;
-    for (const double eye_m : {3.0, 150.0}) {
-        Scene scene = make_scene(35.0, 200.0, -40.0, 0.0, eye_m);
-        scene.sun.enabled = scene.moon.enabled = scene.stars.enabled = false;
-        scene.air.visibility_m = 200e3;
-        scene.weather.clouds[0] = patches.layer;
-        scene.weather.cloud_count = 1;
-        add_view(scene, symmetric_frustum(8.0, kWidth, kHeight),
-                 view_from_enu(110.0, eye_m > 50.0 ? -12.0 : 0.0, 0.0));
-        Renderer renderer({{"only", kWidth, kHeight}}, {}, {}, Target::kLuminance);
-        renderer.draw_clouds(scene_clouds());
-        const double farthest_m = eye_m > 50.0 ? 650.0 : 500.0;
-        for (const double distance_m : {0.5 * farthest_m, farthest_m}) {
-            // Things are told of patches from the second frame on.
-            Wall black(distance_m, kHeight, 0.0F), white(distance_m, kHeight, 1000.0F);
-            black.shadows = white.shadows = false;
-            static_cast<void>(light_of(renderer, scene, black));
-            const std::vector<float> dark = light_of(renderer, scene, black);
-            const std::vector<float> bright = light_of(renderer, scene, white);
-            for (const int x : {20, 80, 140}) {
-                const int y = kHeight / 2 - 4;
-                const glm::dvec3 in_view = view_direction({"only", kWidth, kHeight}, scene.views[0].frustum,
-                                                          x + 0.5, kHeight - y - 0.5);
-                const glm::dvec3 ray = glm::transpose(scene.views[0].view_from_enu) * in_view;
-                const double along_m = distance_m / -in_view.z;
-                const double passed = std::exp(-patches.depth(scene, ray, along_m));
-                if (passed < 0.05) continue;
-                const double air = std::exp(-2e-5 * along_m);
-                const double got = (luminance_at(bright, x, y) - luminance_at(dark, x, y)) / 1000.0 / air;
-                largest = std::max(largest, std::abs(got / passed - 1.0));
-                EXPECT_NEAR(got, passed, 0.05 * passed)
-                    << "eye " << eye_m << " m, " << distance_m << " m, column " << x;
-                ++compared;
-            }
-        }
-    }
-    std::printf("%d targets among patches: largest relative error of contrast %.3f\n", compared, largest);
-    RecordProperty("largest_relative_error", std::to_string(largest));
-    EXPECT_GE(compared, 9);
 }
 
 }  // namespace

@@ -91,32 +91,5 @@ TEST_F(RampPicture, FogComesOverAMinuteWithoutPops) {
     }
 }
 
-// In the wind, from the ground: an eye among them.
-TEST_F(RampPicture, PatchesOfFogComeDriftAndCloseOverAMinuteWithoutPops) {
-    config::Config config = looking(0.0);
-    config.start.height_m = 3.0;
-    WeatherBench bench(config);
-    bench.frame(kFrame_s);
-    WeatherControl fog = cloud(0, CloudType::kNone, -1000.0F, 50.0F);
-    fog.thickness = 1040.0F;
-    fog.top_transition_band = 10.0F;
-    fog.visibility = 100.0F;
-    fog.wind_horizontal = 4.0F;
-    fog.wind_direction = 300.0F;
-    bench.send(fog);
-    double now_s = 0.0;
-    for (const double from_s : {8.0, 40.0, 62.0}) {
-        const int step = largest_step(bench, now_s, from_s);
-        std::printf("patches of fog come, from %.0f s: steps of %d codes\n", from_s, step);
-        EXPECT_LE(step, 2);
-    }
-    fog.coverage = 100.0F;
-    bench.send(fog);
-    now_s = 0.0;
-    const int step = largest_step(bench, now_s, 52.0);
-    std::printf("patches of fog close, from 52 s: steps of %d codes\n", step);
-    EXPECT_LE(step, 2);
-}
-
 }  // namespace
 }  // namespace skyig::server::weather
