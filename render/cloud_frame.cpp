@@ -31,6 +31,7 @@ CloudFrame::CloudFrame(std::size_t screens) : laws_(screens), texels_(screens) {
 void CloudFrame::stop() noexcept {
     if (!shown_) return;
     map_.stop();
+    patches_.stop();
     shadow_ = nullptr;
     shown_ = false;
     toned_.clear();
@@ -74,6 +75,7 @@ void CloudFrame::follow(cloud::CloudMaker& maker, const Scene& scene, const clou
                  .straight_horizon_rad = light.straight_horizon_rad,
                  .jumped = jumped_},
                 size, tiles_a_frame);
+    if (serves_things_) patches_.update(maker, {scene, scene.eye, on_clouds});
     if (made_.size() != static_cast<std::size_t>(map_.geometry().tile_count())) resize();
     shown_ = true;
 }
@@ -118,8 +120,16 @@ glm::dvec3 CloudFrame::before_thing(const DeferredAir& air, const glm::dvec3& th
     if (!shown_) return thing_cd_m2;
     const cloud::CloudMap::Sight sight = map_.sight(direction_enu);
     const double inverse_per_m = sight.distance_m > 0.0 ? 1.0 / sight.distance_m : 0.0;
-    const double before = shaders64::passed_before(sight.transmittance, 1.0 - sight.near_opacity, distance_m,
-                                                   cloud::kNearRange_m, inverse_per_m);
+    double all = sight.transmittance, near = 1.0 - sight.near_opacity, before = 1.0;
+    if (patches_.shown()) {
+        const auto passed = [&](double to_m) {
+            return std::exp(-patches_.optical_depth(direction_enu, to_m));
+        };
+        before = passed(distance_m);
+        near = shaders64::patch_others(near, passed(cloud::kNearRange_m));
+        all = shaders64::patch_others(all, passed(fog::Veil::kEndless_m));
+    }
+    before *= shaders64::passed_before(all, near, distance_m, cloud::kNearRange_m, inverse_per_m);
     const glm::dvec3 all_cd_m2 = composed(sight, air, glm::dvec3{0.0}, direction_enu);
     return before * thing_cd_m2 + shaders64::light_before(sight.transmittance, before) * all_cd_m2;
 }

@@ -15,6 +15,7 @@
 #include "render/cloud_tile.h"
 #include "render/deferred.h"
 #include "render/eye/adaptation.h"
+#include "render/patch_columns.h"
 #include "render/shaders/shared.h"
 #include "render/sky_light.h"
 
@@ -56,6 +57,8 @@ class CloudFrame {
 
     [[nodiscard]] bool shown() const noexcept { return shown_; }
     [[nodiscard]] const cloud::CloudMap& map() const noexcept { return map_; }
+    /// Of fog, for things: from the frame after serve_things() on.
+    [[nodiscard]] const PatchColumns& patches() const noexcept { return patches_; }
     /// The same for all screens.
     [[nodiscard]] std::span<const TonedTile> toned() const noexcept { return toned_; }
     [[nodiscard]] std::span<const float> texels(std::size_t screen) const noexcept { return texels_[screen]; }
@@ -110,6 +113,7 @@ class CloudFrame {
     [[nodiscard]] double shaded_from_m(int tile) const noexcept;
 
     cloud::CloudMap map_;
+    PatchColumns patches_;
     const GroundShadow* shadow_ = nullptr;
     bool serves_things_ = false;
     std::vector<float> things_;

@@ -5,6 +5,7 @@
 
 #include "render/cloud/field/shapes.h"
 #include "render/cloud/slab_light.h"
+#include "render/geometry.h"
 #include "render/weather_area.h"
 
 namespace skyig::render {
@@ -31,14 +32,28 @@ CloudShade::CloudShade(const Weather& weather, double ground_albedo) noexcept
         const cloud::field::Genus& genus = cloud::field::genus_of(cloud.genus);
         const double extinction = cloud.extinction_per_m > 0.0 ? cloud.extinction_per_m
                                                                : static_cast<double>(genus.extinction_per_m);
+        const double apart_m = static_cast<double>(genus.apart_m);
         // Half of a band's depth is in its layer.
         layers_[count_++] = {cloud.base_m - 0.5 * cloud.bottom_band_m,
-                             cloud.base_m + cloud.thickness_m + 0.5 * cloud.top_band_m, coverage,
+                             cloud.base_m + cloud.thickness_m + 0.5 * cloud.top_band_m,
+                             coverage,
+                             apart_m > 0.0 ? cloud.thickness_m / apart_m : 0.0,
                              static_cast<float>(extinction * cloud.thickness_m * mean_depth_part(coverage)),
                              genus.ice ? cloud::field::kIceG : cloud::field::kWaterG};
     }
     std::sort(layers_.begin(), layers_.begin() + static_cast<std::ptrdiff_t>(count_),
               [](const Layer& a, const Layer& b) { return a.base_m > b.base_m; });
+}
+
+// Of the beam, by the part `above` of the layer that lies over the height.
+double CloudShade::covered(const Layer& layer, double above, double height_m, double mu0) noexcept {
+    constexpr double kSteep = 0.5;
+    // At the layer, over the round Earth: never 0.
+    const double climb_m = std::max(0.5 * (layer.base_m + layer.top_m) - height_m, 100.0);
+    const double sine2 = mu0 * mu0 + 2.0 * climb_m / kEarthRadius_m;
+    const double cotangent = std::sqrt(std::max(1.0 / sine2 - 1.0, 0.0));
+    const double power = 1.0 + above * layer.sides * std::max(cotangent - kSteep, 0.0);
+    return 1.0 - std::pow(1.0 - layer.coverage, power);
 }
 
 CloudShare CloudShade::at(double height_m, double mu0) const noexcept {
@@ -58,11 +73,11 @@ CloudShare CloudShade::at(double height_m, double mu0) const noexcept {
         const double reflected = layer.coverage * static_cast<double>(even.reflected);
         const double passed = 1.0 - layer.coverage * (1.0 - static_cast<double>(even.transmitted));
         const double to_and_fro = 1.0 / (1.0 - returned * reflected);
+        const double covered = CloudShade::covered(layer, above, height_m, std::max(mu0, 0.0));
         // The beam's light that the layer sends up comes back from those above.
-        const double up = layer.coverage * direct * static_cast<double>(beam.reflected);
-        const double new_direct = direct * (1.0 - layer.coverage * (1.0 - static_cast<double>(beam.direct)));
-        const double from_beam =
-            layer.coverage * direct * static_cast<double>(beam.transmitted - beam.direct);
+        const double up = covered * direct * static_cast<double>(beam.reflected);
+        const double new_direct = direct * (1.0 - covered * (1.0 - static_cast<double>(beam.direct)));
+        const double from_beam = covered * direct * static_cast<double>(beam.transmitted - beam.direct);
         scattered = from_beam + (scattered + returned * up) * to_and_fro * passed;
         sky *= to_and_fro * passed;
         returned = reflected + passed * passed * returned * to_and_fro;

@@ -22,7 +22,9 @@ struct CloudShare {
 /// Layers as slabs (cloud::slab_fluxes) with gaps, one over another at random, the ground below. Light goes
 /// back and forth between all of them: adding layers as in Lacis & Hansen, J. Atmos. Sci. 31 (1974) 118. Of
 /// a layer that the asked height lies in, the part above counts, so that all is continuous in heights,
-/// coverage and depth.
+/// coverage and depth. A low beam meets the clouds' sides too: of the gaps, a part n of the layer from above,
+/// the power 1 + (cot - 0.5) * thickness / apart of n is left at an elevation of that cotangent (as Kauth &
+/// Penquite, J. Appl. Meteorol. 6 (1967) 1005, have clear lines of sight; lengths measured on the field).
 class CloudShade {
   public:
     /// \param ground_albedo  0..1
@@ -39,9 +41,13 @@ class CloudShade {
         double base_m = 0.0;
         double top_m = 0.0;
         double coverage = 0.0;
+        double sides = 0.0;  // thickness over how far the clouds stand apart
         float depth = 0.0F;
         float g = 0.85F;
     };
+    [[nodiscard]] static double covered(const Layer& layer, double above, double height_m,
+                                        double mu0) noexcept;
+
     std::array<Layer, Weather::kMaxClouds> layers_{};  // the highest base first
     std::size_t count_ = 0;
     double ground_albedo_ = 0.0;

@@ -188,7 +188,7 @@ void CloudTile::take(const cloud::CloudMap& map, int tile, const CloudBackdrop& 
     take_parts(map);
     tile_.near = near.any;
     if (near.any) take_near(backdrop, near);
-    covered_ = near.any && hides_far(map);
+    covered_ = near.any && hides_far(map, backdrop);
     tile_.clear = !map.may_show(tile);
     tile_.shaded = false;
 }
@@ -267,8 +267,9 @@ void CloudTile::take_near(const CloudBackdrop& backdrop, const NearNodes& near) 
     }
 }
 
-// Whether what shows past near clouds is less than half a code, as far as nodes tell.
-bool CloudTile::hides_far(const cloud::CloudMap& map) const noexcept {
+// Whether what shows past near clouds is less than half a code, as far as nodes tell: ground in a gap of
+// shadows is brighter than the mean by no more than all of the beam.
+bool CloudTile::hides_far(const cloud::CloudMap& map, const CloudBackdrop& backdrop) const noexcept {
     constexpr float kMostPassed = 0.02F;
     constexpr float kHidden = 0.004F;
     const auto* near_light = tile_.smooth + cloud::kNearLight;
@@ -286,8 +287,10 @@ bool CloudTile::hides_far(const cloud::CloudMap& map) const noexcept {
             seen += part.weight * glm::vec3{light[0], light[1], light[2]};
         }
         for (int c = 0; c < 3; ++c) {
-            far[c] = std::max(far[c], seen[c] + std::max(tile_.smooth[cloud::kBehind + c][i],
-                                                         tile_.horizon ? tile_.ground[c][i] : 0.0F));
+            far[c] = std::max(far[c], seen[c] +
+                                          std::max(tile_.smooth[cloud::kBehind + c][i],
+                                                   tile_.horizon ? tile_.ground[c][i] : 0.0F) +
+                                          backdrop.sunlit[c][i]);
             near[c] = std::min(near[c], near_light[c][i]);
         }
     }

@@ -76,7 +76,7 @@ class CloudTile {
   private:
     void take_parts(const cloud::CloudMap& map) noexcept;
     void take_near(const CloudBackdrop& backdrop, const NearNodes& near) noexcept;
-    [[nodiscard]] bool hides_far(const cloud::CloudMap& map) const noexcept;
+    [[nodiscard]] bool hides_far(const cloud::CloudMap& map, const CloudBackdrop& backdrop) const noexcept;
     void gather(int row) noexcept;
     void shade_row(int row) noexcept;
     void add_flashes(int row) noexcept;

@@ -112,6 +112,8 @@ void SceneCloudMaker::follow(const cloud::CloudMoment& moment, float ray_rad, bo
 }
 
 const cloud::CloudSource& SceneCloudMaker::freeze(std::size_t slot, const cloud::CloudMoment& moment) {
+    // Fog alone is asked for there.
+    if (slot == kPatchSlot) return fields_.freeze(slot, moment);
     std::array<const ImpostorClouds*, kMostImpostorLayers> used{};
     std::size_t count = 0;
     for (Impostors& impostors : impostors_) {

@@ -9,6 +9,7 @@ namespace {
 // As in cloud/things.glsl.
 constexpr int kFirstUnit = 8;
 constexpr int kShadowUnit = 11;
+constexpr int kPatchUnit = 12;
 constexpr std::array<float, 4> kClear{0.0F, 0.0F, 0.0F, 1.0F};
 
 using cloud::ShadowMap;
@@ -25,13 +26,18 @@ ThingClouds::ThingClouds(const gl::Program& program)
       beam_(program.uniform("u_beam_over_mean")),
       heights_(program.uniform("u_shadow_heights_m")),
       mean_(program.uniform("u_shadow_mean")),
+      patch_heights_(program.uniform("u_patch_heights_m")),
+      patch_fog_(program.uniform("u_patch_fog")),
       corners_{program.uniform("u_shadow_corner_m[0]"), program.uniform("u_shadow_corner_m[1]"),
                program.uniform("u_shadow_corner_m[2]")},
-      shadow_(gl::TexelFormat::kR32F, ShadowMap::kCells, ShadowMap::kLevels * ShadowMap::kCells) {
+      shadow_(gl::TexelFormat::kR32F, ShadowMap::kCells, ShadowMap::kLevels * ShadowMap::kCells),
+      patches_(gl::TexelFormat::kR32F, PatchColumns::kColumns, PatchColumns::kRings + 1) {
     const auto& cell_m = ShadowMap::kCell_m;
     program.set(program.uniform("u_shadow_cell_m"), glm::vec3{cell_m[0], cell_m[1], cell_m[2]});
     program.set(program.uniform("u_shadow_cells"), static_cast<float>(ShadowMap::kCells));
     program.set(near_range_, static_cast<float>(cloud::kNearRange_m));
+    program.set(program.uniform("u_patch_size"),
+                glm::vec2{glm::ivec2{PatchColumns::kAzimuths, PatchColumns::kRings}});
     maps_.reserve(3);
 }
 
@@ -65,6 +71,17 @@ void ThingClouds::upload(const CloudFrame& clouds) {
     }
 }
 
+void ThingClouds::tell_patches(const gl::Program& program, const PatchColumns& patches) {
+    program.set(patch_fog_, glm::vec3{glm::dvec3{patches.shown() ? patches.extinction_per_m() : 0.0,
+                                                 patches.mean(), patches.eye_radius_m()}});
+    if (!patches.shown()) return;
+    if (patches_revision_ != patches.revision()) patches_.update(patches.texels());
+    patches_revision_ = patches.revision();
+    const shaders64::PatchHeights& heights = patches.heights_m();
+    program.set(patch_heights_,
+                glm::vec4{glm::dvec4{heights.begin_m, heights.base_m, heights.top_m, heights.end_m}});
+}
+
 void ThingClouds::tell_shadow(const gl::Program& program, const GroundShadow& shadow) {
     const ShadowMap& map = shadow.map();
     if (shadow_revision_ != map.revision()) shadow_.update(map.cells());
@@ -83,6 +100,7 @@ void ThingClouds::prepare(const gl::Program& program, const CloudFrame& clouds, 
     if (clouds_told_) {
         upload(clouds);
         program.set(place_, CloudFetch::place(size_, false));
+        tell_patches(program, clouds.patches());
     }
     program.set(shown_, clouds_told_ ? 1.0F : 0.0F);
     shadow_told_ = shadow.shown();
@@ -94,6 +112,7 @@ void ThingClouds::bind(const gl::Program& program, bool shaded) const {
     for (std::size_t i = 0; clouds_told_ && i < maps_.size(); ++i)
         gl::bind_texture(kFirstUnit + static_cast<int>(i), maps_[i].name());
     gl::bind_texture(kShadowUnit, shadow_.name());
+    gl::bind_texture(kPatchUnit, patches_.name());
 }
 
 }  // namespace skyig::render

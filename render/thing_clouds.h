@@ -1,5 +1,5 @@
 // What the pass over another renderer's picture needs of clouds, as textures and uniforms of its program:
-// those before and behind its things, and their shadows on them.
+// those before and behind its things, fog's patches among them, and their shadows on them.
 #pragma once
 
 #include <array>
@@ -24,12 +24,16 @@ class ThingClouds {
 
   private:
     void upload(const CloudFrame& clouds);
+    void tell_patches(const gl::Program& program, const PatchColumns& patches);
     void tell_shadow(const gl::Program& program, const GroundShadow& shadow);
 
-    int place_, shown_, shaded_, near_range_, eye_height_, source_, beam_, heights_, mean_;
+    int place_, shown_, shaded_, near_range_, eye_height_, source_, beam_, heights_, mean_, patch_heights_,
+        patch_fog_;
     std::array<int, cloud::ShadowMap::kLevels> corners_;
     std::vector<gl::Texture> maps_;  // light, distance, near; none before there are clouds
     gl::Texture shadow_;
+    gl::Texture patches_;
+    std::uint64_t patches_revision_ = 0;
     std::uint64_t size_revision_ = 0;
     std::uint64_t shadow_revision_ = 0;
     bool shadow_told_ = false;

@@ -164,8 +164,8 @@ constexpr std::array kWorldMeanings{
     Meaning{"weather.layer", "top_band_m", "the same of the top alone", "`band_m`"},
     Meaning{"weather.layer", "top_band_ft", "in place of `top_band_m`", {}, "from 0"},
     Meaning{"weather.layer", "coverage_oktas",
-            "of the sky, seen straight from below; fog below all of it lies in patches, shown as their "
-            "[mean](models.md); of what falls it is a part of the rate",
+            "of the sky, seen straight from below; fog below all of it lies in "
+            "[patches](models.md#fog-haze-and-their-like); of what falls it is a part of the rate",
             "all"},
     Meaning{"weather.layer", "coverage_pct", "in place of `coverage_oktas`"},
     Meaning{"weather.layer", "visibility_m",

@@ -20,10 +20,11 @@ struct CloudMoment {
 class CloudMaker {
   public:
     /// Moments that are in use together.
-    static constexpr std::size_t kSlots = 5;
-    /// Of them, that of the map of near clouds and that of shadows.
+    static constexpr std::size_t kSlots = 6;
+    /// Of them, that of the map of near clouds, that of shadows and that of fog's patches.
     static constexpr std::size_t kNearSlot = 3;
     static constexpr std::size_t kShadowSlot = 4;
+    static constexpr std::size_t kPatchSlot = 5;
 
     virtual ~CloudMaker() = default;
 

@@ -21,6 +21,8 @@ using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, 
 // After the tone curve that it builds on.
 #include "render/shaders/eye/fovea.glsl"
 #include "render/shaders/fog/veil.glsl"
+// After the ray that it follows.
+#include "render/shaders/fog/patches.glsl"
 #include "render/shaders/night/moon.glsl"
 #include "render/shaders/sky/aerial.glsl"
 #include "render/shaders/sky/cie.glsl"
@@ -43,6 +45,8 @@ using glm::clamp, glm::max, glm::min, glm::exp2, glm::log2, glm::pow, glm::log, 
 // After the tone curve that it builds on.
 #include "render/shaders/eye/fovea.glsl"
 #include "render/shaders/fog/veil.glsl"
+// After the ray that it follows.
+#include "render/shaders/fog/patches.glsl"
 #include "render/shaders/night/moon.glsl"
 #include "render/shaders/sky/aerial.glsl"
 #include "render/shaders/sky/cie.glsl"

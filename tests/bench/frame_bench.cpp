@@ -235,12 +235,22 @@ void print_all_clouds(int rounds) {
     const Scene broken = clouded(500.0, CloudGenus::kCumulus, CloudModel::kVolume, 0.5);
     const Scene above = clouded(4000.0, CloudGenus::kCumulus, CloudModel::kVolume, 0.4);
     const Scene inside = clouded(1700.0, CloudGenus::kStratus, CloudModel::kVolume, 1.0);
+    Scene patches = clouded(3.0, CloudGenus::kFogPatches, CloudModel::kAuto, 0.5);
+    CloudLayer& fog = patches.weather.clouds[0];
+    fog.base_m = 0.0;
+    fog.thickness_m = 40.0;
+    fog.top_band_m = 10.0;
+    fog.extinction_per_m = 0.028;
+    Scene over_patches = patches;
+    over_patches.eye.height_m = 300.0;
     for (const std::size_t channels : {std::size_t{1}, std::size_t{3}}) {
         print_clouds("overcast layer", overcast, 20.0, channels, rounds);
         print_clouds("broken volume", broken, 20.0, channels, rounds);
         print_clouds("in cloud", inside, 5.0, channels, rounds);
         print_clouds("broken, above", above, -20.0, channels, rounds);
         print_clouds("broken, below", broken, -10.0, channels, rounds);
+        print_clouds("fog patches", patches, 0.0, channels, rounds);
+        print_clouds("over patches", over_patches, -8.0, channels, rounds);
     }
 }
 

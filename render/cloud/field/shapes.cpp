@@ -36,6 +36,7 @@ constexpr Genus cumulus() {
     g.stride_m = 150.0F;
     g.extinction_per_m = 0.05F;
     g.usual_thickness_m = 2000.0F;
+    g.apart_m = 3600.0F;
     return g;
 }
 
@@ -56,6 +57,7 @@ constexpr Genus cumulonimbus() {
     g.stride_m = 300.0F;
     g.extinction_per_m = 0.06F;
     g.usual_thickness_m = 11000.0F;
+    g.apart_m = 14000.0F;
     return g;
 }
 
@@ -73,6 +75,7 @@ constexpr Genus stratocumulus() {
     g.stride_m = 150.0F;
     g.extinction_per_m = 0.045F;
     g.usual_thickness_m = 400.0F;
+    g.apart_m = 1000.0F;
     return g;
 }
 
@@ -90,6 +93,7 @@ constexpr Genus smooth_sheet(int main, float extinction_per_m, float thickness_m
     g.stride_m = 250.0F;
     g.extinction_per_m = extinction_per_m;
     g.usual_thickness_m = thickness_m;
+    g.apart_m = 12000.0F / static_cast<float>(main);
     return g;
 }
 
@@ -107,6 +111,7 @@ constexpr Genus altocumulus() {
     g.stride_m = 60.0F;
     g.extinction_per_m = 0.015F;
     g.usual_thickness_m = 350.0F;
+    g.apart_m = 580.0F;
     return g;
 }
 
@@ -144,17 +149,18 @@ constexpr Genus cirrocumulus() {
     g.stride_m = 40.0F;
     g.extinction_per_m = 0.003F;
     g.usual_thickness_m = 250.0F;
+    g.apart_m = 0.0F;
     g.ice = true;
     return g;
 }
 
 // Patches some 300 m across, upright from the ground to the top: fog pools, it does not heap. Between full
-// and nothing lie some 60 m.
+// and nothing lie some 80 m.
 constexpr Genus fog_patches() {
     Genus g;
     g.flats = {{{Sheet::kSmooth, turned(2, 1), 0.30F}, {Sheet::kSmooth, turned(34, 13), 1.0F}, {}}};
     g.push = {0.05F, 0.03F};
-    g.edge = 0.2F;
+    g.edge = 0.3F;
     g.reach_m = 90.0F;
     g.step_m = 10.0F;
     g.stride_m = 40.0F;
@@ -164,6 +170,7 @@ constexpr Genus fog_patches() {
     g.covered_part = 0.5F;
     // A gap that a runway lies in is to stay where it is against the drift.
     g.change_m_s = 0.0F;
+    g.apart_m = 240.0F;
     return g;
 }
 

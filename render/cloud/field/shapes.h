@@ -56,6 +56,9 @@ struct Genus {
     float step_part = 0.1F;
     float extinction_per_m = 0.05F;
     float usual_thickness_m = 500.0F;
+    /// How far a beam goes along the ground, in the mean, before it meets the next cloud's side: by that the
+    /// gaps close as a source goes down (cloud_shade.h). 0: they do not. Measured on the field.
+    float apart_m = 0.0F;
     bool ice = false;
     /// Of a column, from where on it counts as covered; 0: where it hides what is behind it.
     float covered_part = 0.0F;

@@ -6,6 +6,7 @@
 #include "common/dither.glsl"
 #include "sky/aerial.glsl"
 #include "fog/veil.glsl"
+#include "fog/patches.glsl"
 #include "cloud/things.glsl"
 
 uniform ToneParameters u_tone;
