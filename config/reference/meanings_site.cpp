@@ -160,10 +160,6 @@ constexpr std::array kSiteMeanings{
     Meaning{"channel", "pattern",
             "a [test pattern](operations.md#setting-up-displays), shown in place of the sky until the host "
             "asks for another"},
-    Meaning{"channel", "windscreen_m",
-            "from the eye to a pane on which [rain stands in drops](weather.md#drops-on-a-windscreen); not "
-            "with a warp",
-            "none"},
     Meaning{"channel", "fov_deg", "whole field from left to right, the axis in its middle",
             "one of three ways"},
     Meaning{"channel", "fov_vertical_deg", "whole field from bottom to top, beside `fov_deg`",
