@@ -202,10 +202,25 @@ void SkyFrame::adapt(const Scene& scene) {
     }
     double wanted_cd_m2 =
         eye.adapt_to == AdaptationSource::kViewMean ? all.mean_cd_m2() : all.log_average_cd_m2();
-    if (eye.adapt_to == AdaptationSource::kSky)
-        wanted_cd_m2 = eye::adaptation_to_bright(eye, wanted_cd_m2, eye::bright_part_cd_m2(probes_cd_m2_));
+    if (eye.adapt_to == AdaptationSource::kSky && clouds_.shown())
+        wanted_cd_m2 = adapted_to_clouds(wanted_cd_m2, eye.tone);
     if (eye.fixed_adaptation_cd_m2 > 0.0) wanted_cd_m2 = eye.fixed_adaptation_cd_m2;
     adaptation_.update(wanted_cd_m2, scene.time_s, tables_.jumped(), eye);
+}
+
+double SkyFrame::adapted_to_clouds(double adaptation_cd_m2, ToneOperator tone) const {
+    std::array<double, eye::kProbeCount> over_sky_cd_m2{};
+    for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
+        const eye::ProbeDirection& probe = eye::probe_directions()[i];
+        const double elevation =
+            std::min(light_.horizon_elevation_rad + probe.above_horizon_rad, kZenith_rad);
+        over_sky_cd_m2[i] = std::max(probes_cd_m2_[i] - luminance_cd_m2(elevation, probe.azimuth_rad), 0.0);
+    }
+    // Before a usual screen: one adaptation serves all of a rig's.
+    DisplaySettings usual;
+    usual.tone = tone;
+    return eye::adaptation_to_bright(usual, adaptation_cd_m2,
+                                     adaptation_cd_m2 + eye::bright_part_cd_m2(over_sky_cd_m2));
 }
 
 void SkyFrame::tone_screens(const Scene& scene, double smallest_pixel_sr) {

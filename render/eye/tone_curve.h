@@ -37,7 +37,7 @@ inline constexpr double kTumblinZero_cd_m2 = 1.5940429e-4;
 [[nodiscard]] double highlight_room(double day_room, double adaptation_cd_m2) noexcept;
 
 /// kHybrid: the adaptation at which, by day, what is so bright is shown no brighter than where the screen's
-/// shoulder begins: eyes over sunlit clouds or snow adapt to those and not to the dark sky beside them.
+/// shoulder begins: eyes over sunlit clouds adapt to those and not to the dark sky beside them.
 /// Between `adaptation_cd_m2`, where no more is needed or below 100 cd/m2, and `bright_cd_m2`.
 [[nodiscard]] double adaptation_to_bright(const DisplaySettings& display, double adaptation_cd_m2,
                                           double bright_cd_m2) noexcept;

@@ -128,6 +128,7 @@ TEST(Account, JsonTellsFramesWorldPlanAndRecorder) {
     EXPECT_EQ(json.at("channels").at(1), (Json{{"name", "right"},
                                                {"failed", false},
                                                {"failures", 2},
+                                               {"hidden", false},
                                                {"last_failure", "OpenGL reported an error"}}));
     EXPECT_EQ(json.at("plan").size(), 2U);
     EXPECT_EQ(json.at("plan").at(1).at("reason"), "the sky is too bright");
