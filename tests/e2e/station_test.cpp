@@ -29,6 +29,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::chrono::seconds kPatience{30};
+// Weather takes some seconds to come, beside other tests more.
+constexpr std::chrono::seconds kRest{90};
 
 /// Means of a grid of the channel's newest picture, red, green and blue 0..255.
 constexpr const char* kPicture = R"((() => {
@@ -87,8 +89,8 @@ class Station : public ::testing::Test {
         const Json told = browser_->evaluate(kPicture);
         return told.is_array() ? told.get<std::vector<double>>() : std::vector<double>();
     }
-    static bool comes(const std::function<bool()>& it) {
-        const auto end = std::chrono::steady_clock::now() + kPatience;
+    static bool comes(const std::function<bool()>& it, std::chrono::seconds patience = kPatience) {
+        const auto end = std::chrono::steady_clock::now() + patience;
         while (std::chrono::steady_clock::now() < end) {
             if (it()) return true;
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -116,13 +118,15 @@ class Station : public ::testing::Test {
         constexpr int kInARow = 3;
         std::vector<double> before;
         int alike = 0;
-        EXPECT_TRUE(comes([&] {
-            std::this_thread::sleep_for(std::chrono::milliseconds(700));
-            std::vector<double> now = picture();
-            alike = !before.empty() && !now.empty() && difference(before, now) < 0.3 ? alike + 1 : 0;
-            before = std::move(now);
-            return alike == kInARow;
-        }));
+        EXPECT_TRUE(comes(
+            [&] {
+                std::this_thread::sleep_for(std::chrono::milliseconds(700));
+                std::vector<double> now = picture();
+                alike = !before.empty() && !now.empty() && difference(before, now) < 0.3 ? alike + 1 : 0;
+                before = std::move(now);
+                return alike == kInARow;
+            },
+            kRest));
         return before;
     }
     void click(const std::string& selector) {
