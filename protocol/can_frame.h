@@ -14,8 +14,8 @@ inline constexpr std::uint32_t kMaxExtendedId = 0x1FFF'FFFFU;
 inline constexpr std::size_t kClassicBytes = 8;
 inline constexpr std::size_t kFdBytes = 64;
 
-/// The flags of a CAN FD frame from what a source tells: of those that are known the two that the bus carries, and
-/// the format's own, which old kernels, old writers and `##` of candump logs leave out.
+/// The flags of a CAN FD frame from what a source tells: of those that are known the two that the bus
+/// carries, and the format's own, which old kernels, old writers and `##` of candump logs leave out.
 constexpr std::uint8_t fd_flags_from(unsigned told) noexcept {
     constexpr unsigned kOfTheBus = 0x03;
     constexpr unsigned kFormat = 0x04;

@@ -28,7 +28,8 @@ constexpr std::array kWorldMeanings{
     Meaning{"ground", "surface", "what lies below the air, everywhere: [models](models.md#ground-and-sea)"},
     Meaning{"ground", "albedo", "of bare land in daylight", "that of grass and soil, 0.11"},
     Meaning{"ground", "snow_pct",
-            "part of the land under snow at the start, [more as it falls](weather.md#what-it-leaves-on-the-ground), "
+            "part of the land under snow at the start, [more as it "
+            "falls](weather.md#what-it-leaves-on-the-ground), "
             "until a host tells how much there is (condition 1)"},
     Meaning{"sky", "sun", "whether it shines"},
     Meaning{"sky", "moon", "whether it shines"},
