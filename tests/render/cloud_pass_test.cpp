@@ -154,7 +154,10 @@ TEST_F(CloudPicture, FollowsTheEyeWithinTwoPixelsAndWithoutSteps) {
     add_layer(scene, sheet);
     Quality quality = small_map();
     quality.cloud_map_size = 1024;
-    Renderer renderer({{"only", kWidth, kHeight}}, without_glare(), quality);
+    // An eye that is still adapting would be told as clouds that have moved.
+    DisplaySettings adapted = without_glare();
+    adapted.fixed_adaptation_cd_m2 = 8000.0;
+    Renderer renderer({{"only", kWidth, kHeight}}, adapted, quality);
     renderer.draw_clouds(fake_clouds(sheet));
     // Pixels of 60 deg over 1280.
     constexpr double kPixel_rad = 9.0e-4;
@@ -168,7 +171,7 @@ TEST_F(CloudPicture, FollowsTheEyeWithinTwoPixelsAndWithoutSteps) {
         largest = std::max(largest, largest_step(picture, last));
         last = picture;
         if (frame < 55) continue;
-        Renderer anew({{"only", kWidth, kHeight}}, without_glare(), quality);
+        Renderer anew({{"only", kWidth, kHeight}}, adapted, quality);
         anew.draw_clouds(fake_clouds(sheet));
         const Picture exact = drawn(anew, now);
         exact_step = largest_step(exact, last_exact);
