@@ -30,6 +30,7 @@ using protocol::transport::FileDescriptor;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::json;
 
 /// The manager's end of NOTIFY_SOCKET.
@@ -157,6 +158,25 @@ TEST(Service, TakesWhatCanChangeLiveAndSaysWhatCannot) {
     EXPECT_EQ(status["settings"]["times_taken"], 1);
     EXPECT_TRUE(status["settings"]["last_taken_utc"].is_string());
     EXPECT_EQ(status["world"]["air"]["visibility_m"], 5000.0);
+}
+
+TEST(Service, TakesAnotherQualityWithoutAFailedFrame) {
+    const Service service;
+    Process daemon(service.command(), service.environment("0"));
+    ASSERT_TRUE(service.manager.hears("READY=1"));
+    rewrite(service.site, "version = 1\n", "version = 1\nquality.error_codes = 4.0\n");
+    daemon.signal(SIGHUP);
+    EXPECT_TRUE(service.manager.hears("READY=1\nSTATUS=settings taken"));
+    ASSERT_TRUE(daemon.wait_for_err("settings read anew: quality.error_codes\n"));
+    const std::uint64_t frames = status_of(daemon)["frames"];
+    Json status = status_of(daemon);
+    for (int i = 0; i < 100 && status["frames"] < frames + 3; ++i)
+        status = status_of(daemon);
+    EXPECT_GE(status["frames"], frames + 3) << "frames go on";
+    EXPECT_EQ(status["gl_errors"], 0);
+    EXPECT_THAT(daemon.err_so_far(), Not(HasSubstr("cannot be drawn")));
+    daemon.signal(SIGTERM);
+    EXPECT_EQ(daemon.wait().status, 0);
 }
 
 TEST(Service, RefusesABrokenFileWholeAndGoesOn) {
