@@ -126,7 +126,7 @@ class Outside {
     Outside(const DaemonOptions& options, const config::Config& config, Clock& wall,
             ManualClock& replay_clock, Log& log) {
         if (options.replay_path.empty()) {
-            live_.emplace(config, log);
+            live_.emplace(config, wall, log);
             const bool wanted = config.daemon.pacing == config::Pacing::kDisplay;
             if (wanted && !options.headless) {
                 live_pace_ = std::make_unique<DisplayPace>(wall, config.daemon.rate_hz);

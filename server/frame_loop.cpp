@@ -73,7 +73,7 @@ bool FrameLoop::run_frame() {
     const FramePacer::Slot slot = *next;
     const std::int64_t start_ns = parts_.clock.monotonic_ns();
     if (frame_number_ == 0) first_start_ns_ = start_ns;
-    const std::int64_t utc_ns = parts_.clock.utc_ns();
+    const std::int64_t utc_ns = parts_.clock.steady_utc_ns();
     ++frame_number_;
 
     thin(slot);
@@ -93,7 +93,7 @@ bool FrameLoop::run_frame() {
     if (!wanted) parts_.log.notice("a window was closed: the daemon ends");
     tell_monitors();
     times.display_ns = stopwatch.lap_ns();
-    if (parts_.wire.live()) delays_.shown(parts_.clock.utc_ns(), inbox_.frame_arrivals());
+    if (parts_.wire.live()) delays_.shown(parts_.clock.steady_utc_ns(), inbox_.frame_arrivals());
     hand_out(scene);
     times.output_ns = stopwatch.lap_ns();
     if (on_processor_) times.processor_ns = parts_.clock.processor_ns() - processor_before_ns;
@@ -178,7 +178,7 @@ void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::F
         times.channels_ns += took_ns;
         // What is crossed out shows no message.
         if (!live || parts_.painter.health(channel).failed) continue;
-        last_utc_ns = parts_.clock.utc_ns();
+        last_utc_ns = parts_.clock.steady_utc_ns();
         if (first_utc_ns == 0) first_utc_ns = last_utc_ns;
         delays_.finished(channel, last_utc_ns, inbox_.frame_arrivals());
     }
