@@ -72,9 +72,9 @@ double adapted_to_clouds(double adaptation_cd_m2, ToneOperator tone,
 // What a target of luminance asks of the dome: the finest there is.
 constexpr Quality kFinest{.error_codes = 0.0, .forced = {}, .thinned = {}};
 
-// What a thinned frame follows of the cloud map, and by how much larger steps.
+// How many times as slowly thinned frames renew the cloud map, and follow what is seen of it.
 constexpr int kThinnedRefresh = 3;
-constexpr float kThinnedMotion = 4.0F;
+constexpr int kThinnedTones = 3;
 
 }  // namespace
 
@@ -143,9 +143,13 @@ void SkyFrame::refresh_clouds(const Scene& scene, double pixel_rad) {
                           ? std::max(quality_.cloud_tiles_a_frame / kThinnedRefresh, 1)
                           : quality_.cloud_tiles_a_frame;
     clouds_.follow(*made_clouds_.maker, scene, cloud_light_, light_, tables_.jumped(), size, tiles);
-    clouds_.step_by(plan_.thins(Thin::kCloudMotion) ? kThinnedMotion : 1.0F);
-    ground_shadow_.update(*made_clouds_.maker, {scene, scene.eye, cloud_light_}, tables_.air(), light_,
-                          tables_.jumped());
+    clouds_.tone_every(plan_.thins(Thin::kCloudTones) ? kThinnedTones : 1);
+    if (plan_.thins(Thin::kCloudShadows)) {
+        ground_shadow_.stop();
+    } else {
+        ground_shadow_.update(*made_clouds_.maker, {scene, scene.eye, cloud_light_}, tables_.air(), light_,
+                              tables_.jumped());
+    }
     clouds_.shade_ground(&ground_shadow_);
     plan_cloud_shadows(plan_, ground_shadow_.map(), ground_shadow_.shown());
     plan_clouds(plan_, scene, size, cloud::NearMap::kSize, clouds_.map().near_map() != nullptr);
@@ -323,10 +327,8 @@ void SkyFrame::refresh_dome(double pixel_rad) {
     wanted.veil = veil_.bends_revision();
     const bool at_once = shaded_.tables == 0 || tables_.jumped();
     // A fade that runs is not begun anew for nodes that only could stand better.
-    const bool thinned = plan_.thins(Thin::kDome);
-    const bool lay =
-        at_once || !still_serves(dome_.layout(), wanted) ||
-        (dome_.share() >= 1.0 && (thinned != dome_thinned_ || !still_fits(dome_.layout(), wanted)));
+    const bool lay = at_once || !still_serves(dome_.layout(), wanted) ||
+                     (dome_.share() >= 1.0 && !still_fits(dome_.layout(), wanted));
     const bool replaced = lay || shaded_.tables != tables_.revision();
     const bool turned = std::abs(std::remainder(wanted.second_azimuth_rad - shaded_.moon_from_sun_rad,
                                                 2.0 * std::numbers::pi)) > static_cast<double>(kLightStep);
@@ -341,11 +343,9 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         std::abs(adaptation - shaded_.adaptation_cd_m2) > kAdaptationStep * shaded_.adaptation_cd_m2 ||
         exposure_exponent_ != shaded_.exposure_exponent;
     const bool of_light = target_ != Target::kDisplay;
-    Quality quality = of_light ? kFinest : quality_;
-    if (thinned) quality.error_codes *= kThinnedDome;
+    const Quality& quality = of_light ? kFinest : quality_;
     mesh_azimuth_rad_ = wanted.azimuth_rad;
     if (lay) {
-        dome_thinned_ = thinned;
         bend_.measure(light_, display_tones_, mesh_azimuth_rad_, pixel_rad);
         dome_.lay_out(wanted, bend_, plan_dome(bend_, at_once ? DomeBend::kLeast : dome_.size(), quality));
     }

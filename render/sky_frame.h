@@ -192,7 +192,6 @@ class SkyFrame {
     std::vector<ClippedLight> clipped_;
     double mesh_azimuth_rad_ = 0.0;
     double dome_error_codes_ = 0.0;
-    bool dome_thinned_ = false;
     std::uint64_t triangles_revision_ = 0;
     std::uint64_t vertices_revision_ = 0;
     sky::SeaWaves waves_;

@@ -287,7 +287,7 @@ void FrameLoop::watch(const FramePacer::Slot& slot) {
 void FrameLoop::tell_thinning(Overload::Step step) {
     if (step == Overload::Step::kNone) return;
     const Overload::State& state = overload_->state();
-    const std::string_view what = config::kThinningNames[static_cast<std::size_t>(state.last_thing)];
+    const std::string_view what = config::thinning_name(static_cast<config::Thinning>(state.last_thing));
     if (step == Overload::Step::kThinned) {
         parts_.log.limited("thinned", kRemindAfter_s, Severity::kNotice,
                            "leaves out {}: a frame takes {:.1f} of {:.1f} ms", what,
