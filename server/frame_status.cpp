@@ -110,6 +110,7 @@ void FrameLoop::take_stock(status::Snapshot& snapshot) const {
     snapshot.gl_errors = parts_.painter.gl_errors();
     snapshot.gl_resets = parts_.painter.resets();
     snapshot.settings = settings_;
+    parts_.painter.rig(snapshot.rig);
     if (parts_.images != nullptr) {
         const ImageWriter::Counts images = parts_.images->counts();
         snapshot.images_written = images.written;
