@@ -56,7 +56,9 @@ FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, 
 }
 
 void FrameLoop::warm_up() {
-    parts_.painter.prepare(scenes_.build(parts_.world, 0));
+    render::Scene scene = scenes_.build(parts_.world, 0);
+    parts_.painter.settle(scene);
+    parts_.painter.prepare(scene);
     for (std::size_t channel = 0; channel < config_.channels.size(); ++channel)
         parts_.painter.draw(channel);
     tell_date();
@@ -72,9 +74,9 @@ bool FrameLoop::run_frame() {
     if (!next) return false;
     const FramePacer::Slot slot = *next;
     const std::int64_t start_ns = parts_.clock.monotonic_ns();
-    if (frame_number_ == 0) first_start_ns_ = start_ns;
+    if (first_start_ns_ == 0) first_start_ns_ = start_ns;
     const std::int64_t utc_ns = parts_.clock.utc_ns();
-    ++frame_number_;
+    frame_number_ = slot.told_number != 0 ? slot.told_number : frame_number_ + 1;
 
     thin(slot);
     answer_host(slot, utc_ns);
@@ -86,6 +88,7 @@ bool FrameLoop::run_frame() {
     take_input(slot, times, stopwatch);
     render::Scene scene = scenes_.build(parts_.world, frame_number_);
     overlay_.write(parts_.world, slot.slots, scene);
+    parts_.painter.settle(scene);
     times.input_ns += stopwatch.lap_ns();
     times_.input().add(times.input_ns);
     draw(scene, stopwatch, times);
@@ -115,7 +118,8 @@ void FrameLoop::note_settings(bool taken) noexcept {
 }
 
 void FrameLoop::thin(const FramePacer::Slot& slot) {
-    const render::Thinned wanted = overload_ ? overload_->thinned() : render::Thinned(slot.thinned);
+    const bool own = overload_ && slot.told_number == 0;
+    const render::Thinned wanted = own ? overload_->thinned() : render::Thinned(slot.thinned);
     if (wanted != thinned_) parts_.painter.thin(wanted);
     thinned_ = wanted;
 }
@@ -177,7 +181,7 @@ void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::F
         times_.channel(channel).add(took_ns);
         times.channels_ns += took_ns;
         // What is crossed out shows no message.
-        if (!live || parts_.painter.health(channel).failed) continue;
+        if (!live || !parts_.painter.draws(channel) || parts_.painter.health(channel).failed) continue;
         last_utc_ns = parts_.clock.utc_ns();
         if (first_utc_ns == 0) first_utc_ns = last_utc_ns;
         delays_.finished(channel, last_utc_ns, inbox_.frame_arrivals());
@@ -243,6 +247,7 @@ void FrameLoop::tell_resets() {
 
 void FrameLoop::hash_images() {
     for (std::size_t i = 0; i < config_.channels.size(); ++i) {
+        if (!parts_.painter.draws(i)) continue;
         const config::Channel& channel = config_.channels[i];
         read_back_.resize(static_cast<std::size_t>(channel.width_px) *
                           static_cast<std::size_t>(channel.height_px) * 4U);
@@ -257,7 +262,7 @@ void FrameLoop::hand_out_images(const render::Scene& scene) {
     images->number = frame_number_;
     if (parts_.images->takes_scenes()) images->scene = scene;
     for (std::size_t channel = 0; channel < images->channels.size(); ++channel)
-        parts_.painter.read_back(channel, images->channels[channel]);
+        if (parts_.painter.draws(channel)) parts_.painter.read_back(channel, images->channels[channel]);
     parts_.images->submit(images);
 }
 

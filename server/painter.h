@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "render/eye/adaptation.h"
 #include "render/quality.h"
 #include "render/scene.h"
 #include "server/status/channel_health.h"
@@ -27,8 +28,16 @@ class Painter {
     virtual void thin(render::Thinned /*thinned*/) {}
     /// What would make the next frame cheaper.
     [[nodiscard]] virtual render::Thinned thinnable() const { return {}; }
+    /// Before prepare(): where another machine says what is drawn, the scene becomes that of its newest
+    /// frame.
+    virtual void settle(render::Scene& /*scene*/) {}
+    /// The eyes' state after the last frame, and how another machine's stand before the next.
+    [[nodiscard]] virtual render::eye::Adaptation eyes() const { return {}; }
+    virtual void adapt_as(const render::eye::Adaptation& /*eyes*/) {}
     /// The work that all channels of this frame share. Never throws, allocates nothing in steady state.
     virtual void prepare(const render::Scene& scene) = 0;
+    /// Whether the channel is this machine's to draw.
+    [[nodiscard]] virtual bool draws(std::size_t /*channel*/) const { return true; }
     /// Draws one channel of the prepared frame; its pixels are finished on return. One that cannot be drawn
     /// shows that it could not, is told of by health(), and leaves the others as they are. Never throws.
     virtual void draw(std::size_t channel) = 0;
