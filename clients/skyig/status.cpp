@@ -34,7 +34,10 @@ struct Told {
 Told of_the_rig(const status::Url& url, const StatusOptions& options, const Json& status) {
     const Json rig = status.value("rig", Json());
     if (rig.is_null()) {
-        return {fmt::format("{} draws alone: its settings have no [rig]\n", status::to_string(url)), {}};
+        const bool began = status.at("frames") != 0;
+        return {fmt::format("{} {}\n", status::to_string(url),
+                            began ? "draws alone: its settings have no [rig]" : "has drawn no frame yet"),
+                {}};
     }
     if (!options.json) return {status::rig_text(rig), rig};
     return {rig.dump(options.watch_s ? -1 : 2) + '\n', rig};
