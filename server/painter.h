@@ -11,6 +11,7 @@
 #include "render/scene.h"
 #include "server/status/channel_health.h"
 #include "server/status/pass_state.h"
+#include "server/status/rig_state.h"
 
 namespace skyig::server {
 
@@ -60,6 +61,8 @@ class Painter {
     /// How often the graphics device was lost and all was made anew on it.
     [[nodiscard]] virtual std::uint64_t resets() const { return 0; }
     [[nodiscard]] virtual status::ChannelHealth health(std::size_t /*channel*/) const { return {}; }
+    /// Of several machines that draw together; left as it is where this one is alone.
+    virtual void rig(status::RigState& /*state*/) const {}
     /// One luminance that all channels of the last frame are adapted to, cd/m2.
     [[nodiscard]] virtual double adaptation_cd_m2() const = 0;
     /// The plan of the last frame into `rows`, as many as there is room for. \return how many

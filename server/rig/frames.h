@@ -10,6 +10,7 @@
 #include "server/pace.h"
 #include "server/painter.h"
 #include "server/rig/machine.h"
+#include "server/rig/rig_status.h"
 #include "server/wire.h"
 #include "server/world/world.h"
 
@@ -87,6 +88,7 @@ class RigPainter final : public Painter {
     [[nodiscard]] std::size_t passes(std::span<status::PassState> rows) const override {
         return inner_.passes(rows);
     }
+    void rig(status::RigState& state) const override { fill_status(machine_, frame_, state); }
     [[nodiscard]] std::string description() const override { return inner_.description(); }
 
   private:
