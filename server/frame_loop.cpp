@@ -96,6 +96,7 @@ bool FrameLoop::run_frame() {
     if (!wanted) parts_.log.notice("a window was closed: the daemon ends");
     tell_monitors();
     times.display_ns = stopwatch.lap_ns();
+    const std::int64_t shown_ns = parts_.painter.showed() ? start_ns + times.duration_ns() : 0;
     if (parts_.wire.live()) delays_.shown(parts_.clock.utc_ns(), inbox_.frame_arrivals());
     hand_out(scene);
     times.output_ns = stopwatch.lap_ns();
@@ -103,8 +104,9 @@ bool FrameLoop::run_frame() {
     last_end_ns_ = start_ns + times.duration_ns();
     times_.frame().add(times.duration_ns());
     if (parts_.table != nullptr) {
-        parts_.table->add({frame_number_, utc_ns, slot.slots, slot.late, inbox_.arrivals() - arrivals_before},
-                          times_);
+        parts_.table->add(
+            {frame_number_, utc_ns, slot.slots, slot.late, inbox_.arrivals() - arrivals_before, shown_ns},
+            times_);
     }
     close_frame(slot, times);
     if (parts_.status != nullptr) publish_status(scene);
@@ -134,6 +136,7 @@ void FrameLoop::take_input(const FramePacer::Slot& slot, status::FrameParts& tim
 }
 
 void FrameLoop::hand_out(const render::Scene& scene) {
+    if (!parts_.painter.showed()) return;
     if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images(scene);
     if (parts_.hashes != nullptr) hash_images();
     if (parts_.preview == nullptr) return;

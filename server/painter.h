@@ -43,6 +43,8 @@ class Painter {
     virtual void draw(std::size_t channel) = 0;
     /// The drawn channels go where people see them. \return false once nobody wants to see them any more
     virtual bool present() { return true; }
+    /// Whether the last present() did that: a machine that is late keeps the picture before.
+    [[nodiscard]] virtual bool showed() const { return true; }
     /// Whether nobody sees the channel, since its window's monitor is gone; it comes back with that.
     [[nodiscard]] virtual bool hides(std::size_t /*channel*/) const { return false; }
     /// RGBA, top row first, width * height * 4 bytes.

@@ -23,8 +23,6 @@ using DdsNode = skyig_rig_v1_NodeState;
 constexpr dds_duration_t kLease = DDS_SECS(1);
 /// A machine that is found again after a cut cable: asked for as often.
 constexpr std::string_view kAskEvery = "500ms";
-/// Programs on one machine that a peer may be.
-constexpr int kProgramsAMachine = 4;
 /// The frame loop gives a full send queue no more than that.
 constexpr dds_duration_t kMostBlocking = DDS_MSECS(2);
 
@@ -307,8 +305,8 @@ std::string cyclone_settings(const DdsSettings& settings) {
         "</Interfaces><AllowMulticast>false</AllowMulticast></General><Discovery>"
         "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>"
         "<SPDPInterval>{}</SPDPInterval><Peers>{}</Peers></Discovery></Domain></CycloneDDS>",
-        is_address(settings.interface) ? "address" : "name", escaped(settings.interface), kProgramsAMachine,
-        kAskEvery, peers);
+        is_address(settings.interface) ? "address" : "name", escaped(settings.interface),
+        settings.most_programs, kAskEvery, peers);
 }
 
 protocol::Result<std::unique_ptr<Link>, std::string> open_dds_link(const DdsSettings& settings) {

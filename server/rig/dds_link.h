@@ -33,6 +33,9 @@ struct DdsSettings {
     /// Of a frame.
     std::int64_t period_ns = 33'333'333;
 
+    /// Programs of the rig on one machine that are looked for, at most.
+    int most_programs = 4;
+
     static constexpr int kKeptStates = 8;
 };
 

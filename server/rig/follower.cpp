@@ -33,6 +33,9 @@ void Follower::listen() {
         heard_ns_ = clock_.monotonic_ns();
         told_frame_ = std::max(told_frame_, show_message_.frame);
     }
+    // A leader's to hear; what lies there would wake every wait.
+    while (link_.take(node_message_)) {
+    }
 }
 
 void Follower::take(const FrameMessage& message) {
@@ -102,11 +105,9 @@ bool Follower::obeys(const FrameMessage& message) {
 
 void Follower::follow(const FrameMessage& message) {
     log_.notice("follows {} from frame {} on", message.from.node, message.frame);
-    // Another run of the leader counts from its own start; who stands in goes on from where it was.
-    if (message.from.node == leader_.node) {
-        any_frame_ = false;
-        told_frame_ = 0;
-    }
+    // It counts on its own: anew from its start, or on from where another stood in for it in vain.
+    any_frame_ = false;
+    told_frame_ = 0;
     waiting_ = 0;
     leader_ = message.from;
     leader_rank_ = message.rank;
@@ -147,12 +148,15 @@ void Follower::say(NodeState state) {
     link_.send(own_);
 }
 
-Follower::Word Follower::await_word(std::uint64_t frame) {
+Follower::Word Follower::await_word(std::uint64_t frame, std::int64_t patience_ns, const Idle& idle) {
     listen();
     const bool late = told_frame_ >= frame;
-    while (told_frame_ < frame && !leader_is_lost()) {
-        link_.wait(settings_.lost_after_ns - silent_ns());
+    while (told_frame_ < frame && silent_ns() < patience_ns) {
+        link_.wait(std::min(kAliveEvery_ns, patience_ns - silent_ns()));
         listen();
+        if (told_frame_ >= frame || silent_ns() < kAliveEvery_ns) continue;
+        tell_alive();
+        if (!idle()) break;
     }
     if (told_frame_ != frame) {
         ++counts_.repeats;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -66,13 +67,18 @@ class Follower {
     /// Of this machine, for who asks: kept for the messages to come.
     void note_gl(const std::string& description, std::uint64_t errors);
 
+    /// Called now and then while nothing is to be done. \return false to give up
+    using Idle = std::function<bool()>;
     enum class Word : std::uint8_t {
         kShow,    ///< now
         kLate,    ///< the others show it already
         kRepeat,  ///< they are further: what was shown stays
     };
-    /// After tell_drawn(): waits for the leader's word, no longer than for a living leader.
-    [[nodiscard]] Word await_word(std::uint64_t frame);
+    /// After tell_drawn(): waits for the leader's word until it has been silent for so long, or `idle` says
+    /// to give up.
+    [[nodiscard]] Word await_word(std::uint64_t frame, std::int64_t patience_ns, const Idle& idle);
+    /// Between two words that a machine is there.
+    static constexpr std::int64_t kAliveEvery_ns = 100'000'000;
 
     /// Since the leader was heard, or since the start when none was.
     [[nodiscard]] std::int64_t silent_ns() const noexcept { return clock_.monotonic_ns() - heard_ns_; }
@@ -120,6 +126,7 @@ class Follower {
 
     FrameMessage frame_message_;
     ShowMessage show_message_;
+    NodeMessage node_message_;
     NodeMessage own_;
     FollowerCounts counts_;
 };

@@ -128,8 +128,13 @@ void RigPainter::tell(const render::Scene& scene) {
 }
 
 void RigPainter::follow(const FrameState& state) {
+    render::eye::Adaptation eyes = state.eyes;
+    // The leader's eyes were there all along, whatever this machine has missed.
+    const std::uint64_t frame = state.scene.frame_number;
+    if (frame != 0 && (!prepared_ || *prepared_ + 1 != frame)) eyes.resume();
+    prepared_ = frame;
     inner_.thin(state.thinned);
-    inner_.adapt_as(state.eyes);
+    inner_.adapt_as(eyes);
     inner_.prepare(state.scene);
 }
 
@@ -146,14 +151,12 @@ bool RigPainter::may_show() {
     Follower& follower = machine_.follower();
     follower.note_gl({}, inner_.gl_errors());
     follower.tell_drawn(frame_, machine_.clock().monotonic_ns() - began_ns_);
-    return follower.await_word(frame_) != Follower::Word::kRepeat;
+    return machine_.await_word(frame_, idle_) != Follower::Word::kRepeat;
 }
 
 bool RigPainter::present() {
-    if (gave_up_ || !may_show()) return true;
-    shown_ns_ = machine_.clock().monotonic_ns();
-    shown_frame_ = frame_;
-    return inner_.present();
+    showed_ = !gave_up_ && may_show();
+    return !showed_ || inner_.present();
 }
 
 void RigPainter::read_back(std::size_t channel, std::span<std::byte> rgba) {

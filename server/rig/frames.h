@@ -72,6 +72,7 @@ class RigPainter final : public Painter {
     [[nodiscard]] bool draws(std::size_t channel) const override { return own_[channel]; }
     void draw(std::size_t channel) override;
     bool present() override;
+    [[nodiscard]] bool showed() const override { return showed_; }
     [[nodiscard]] bool hides(std::size_t channel) const override { return inner_.hides(channel); }
     void read_back(std::size_t channel, std::span<std::byte> rgba) override;
     [[nodiscard]] bool rebuilt() const override { return inner_.rebuilt(); }
@@ -90,10 +91,6 @@ class RigPainter final : public Painter {
     void rig(status::RigState& state) const override { fill_status(machine_, frame_, state); }
     [[nodiscard]] std::string description() const override { return inner_.description(); }
 
-    /// When the last frame was shown, or went without a display; the machine's monotonic clock.
-    [[nodiscard]] std::int64_t shown_ns() const noexcept { return shown_ns_; }
-    [[nodiscard]] std::uint64_t shown_frame() const noexcept { return shown_frame_; }
-
   private:
     void tell(const render::Scene& scene);
     void follow(const FrameState& state);
@@ -110,8 +107,9 @@ class RigPainter final : public Painter {
     bool gave_up_ = false;
     std::uint64_t frame_ = 0;
     std::int64_t began_ns_ = 0;
-    std::int64_t shown_ns_ = 0;
-    std::uint64_t shown_frame_ = 0;
+    bool showed_ = false;
+    /// The last that was prepared.
+    std::optional<std::uint64_t> prepared_;
 };
 
 }  // namespace skyig::server::rig

@@ -66,8 +66,11 @@ void Leader::take(const NodeMessage& message) {
     }
     const bool ours =
         message.leader == settings_.self.node && message.leader_session == settings_.self.session;
+    const bool followed = member.state == NodeState::kFollows;
     member.state = ours || message.state == NodeState::kLeads ? message.state : NodeState::kJoins;
     if (!ours) return;
+    if (!followed && member.state == NodeState::kFollows)
+        log_.notice("node {} draws from frame {} on", member.name, message.drawn_frame);
     if (message.drawn_frame != member.drawn_frame && message.drawn_frame == finished_frame_)
         member.waited_ns = std::max<std::int64_t>(now_ns - finished_ns_, 0);
     member.drawn_frame = message.drawn_frame;

@@ -7,8 +7,7 @@ namespace skyig::server::rig {
 
 namespace {
 
-/// Between two words that a machine is there, while it draws nothing.
-constexpr std::int64_t kAliveEvery_ns = 100'000'000;
+constexpr std::int64_t kAliveEvery_ns = Follower::kAliveEvery_ns;
 
 std::uint32_t rank_of(const MachineSettings& settings) {
     const auto& may = settings.leaders;
@@ -83,6 +82,10 @@ void Machine::look_for_a_stronger_leader() {
     log_.warning("{} leads too, and comes first: {} follows it", follower_.leader(), name());
     leads_ = false;
     follower_.hear_above(0);
+}
+
+Follower::Word Machine::await_word(std::uint64_t frame, const Idle& idle) {
+    return follower_.await_word(frame, may_lead() ? settings_.lost_after_ns : settings_.patience_ns, idle);
 }
 
 bool Machine::await_work(const Idle& idle) {

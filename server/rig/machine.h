@@ -31,6 +31,8 @@ struct MachineSettings {
     /// A leader that is silent for so long is lost; each further stand-in gives the one before it half as
     /// long again.
     std::int64_t lost_after_ns = 500'000'000;
+    /// Who can do nothing about it waits so long for its word on a frame that is drawn.
+    std::int64_t patience_ns = 10'000'000'000;
     /// Of a replay: for nodes that are not there, and for one that is to draw a frame.
     std::int64_t replay_waits_for_nodes_ns = 60'000'000'000;
     std::int64_t replay_wait_ns = 10'000'000'000;
@@ -38,8 +40,7 @@ struct MachineSettings {
 
 class Machine {
   public:
-    /// Called again and again while nothing is to be drawn. \return false to give up
-    using Idle = std::function<bool()>;
+    using Idle = Follower::Idle;
 
     /// All must outlive it.
     Machine(MachineSettings settings, const Key& key, const FrameCoder& coder, Link& link, const Clock& clock,
@@ -47,6 +48,9 @@ class Machine {
 
     /// Waits until this machine leads, or has frames to draw. \return false when it was told to give up
     [[nodiscard]] bool await_work(const Idle& idle);
+
+    /// \see Follower::await_word(); who may take over gives up on a leader that is lost
+    [[nodiscard]] Follower::Word await_word(std::uint64_t frame, const Idle& idle);
 
     [[nodiscard]] bool leads() const noexcept { return leads_; }
     [[nodiscard]] bool may_lead() const noexcept { return rank_ > 0; }

@@ -24,6 +24,8 @@ class Machines {
     [[nodiscard]] static std::string interface(int machine);
     /// A program on that machine.
     [[nodiscard]] std::vector<std::string> on(int machine, const std::vector<std::string>& command) const;
+    /// This thread's sockets are that machine's from now on.
+    void enter(int machine) const;
     /// Pulls the cable of a machine, or puts it in again.
     void plug(int machine, bool in) const;
 

@@ -42,6 +42,9 @@ struct Node {
         machine.follower().tell_drawn(frame, kMs);
         return true;
     }
+    rig::Follower::Word await_word(std::uint64_t number) {
+        return machine.await_word(number, [this] { return give_up(); });
+    }
     bool give_up() { return ++idles < 20'000; }
 
     rig::Key key;
@@ -98,9 +101,15 @@ TEST_F(RigMachines, AFrameIsShownWhenAllHaveDrawnIt) {
     frame(1);
     left.draw();
     right.draw();
-    EXPECT_LT(frame(2), 2 * kMs);
-    EXPECT_EQ(left.machine.follower().await_word(2), Word::kShow);
-    EXPECT_EQ(right.machine.follower().await_word(2), Word::kShow);
+    lead.machine.leader().tell(state_of(2));
+    ASSERT_TRUE(left.draw());
+    ASSERT_TRUE(right.draw());
+    left.link.meanwhile = [this] {
+        EXPECT_LT(lead.machine.leader().await(2), 2 * kMs);
+        lead.machine.leader().tell_show(2);
+    };
+    EXPECT_EQ(left.await_word(2), Word::kShow);
+    EXPECT_NE(right.await_word(2), Word::kRepeat);
     EXPECT_EQ(lead.machine.leader().counts().incomplete, 0U);
     EXPECT_EQ(lead.machine.leader().members()[0].drawn_frame, 2U);
 }
@@ -116,16 +125,16 @@ TEST_F(RigMachines, ALateNodeIsWaitedForSoLongThenCountedAndNamed) {
     EXPECT_THAT(lead.lines, HasSubstr("frame 2 is shown without node right"));
     // It draws it at last, in that frame's own time.
     ASSERT_TRUE(right.draw());
-    EXPECT_EQ(right.machine.follower().await_word(2), Word::kLate);
+    EXPECT_EQ(right.await_word(2), Word::kLate);
     // The next it draws when the leader has gone on.
     lead.machine.leader().tell(state_of(3));
     ASSERT_TRUE(right.draw());
     lead.machine.leader().tell_show(3);
     lead.machine.leader().tell(state_of(4));
-    EXPECT_EQ(right.machine.follower().await_word(3), Word::kLate);
+    EXPECT_EQ(right.await_word(3), Word::kLate);
     lead.machine.leader().tell_show(4);
     lead.machine.leader().tell(state_of(5));
-    EXPECT_EQ(right.machine.follower().await_word(3), Word::kRepeat);
+    EXPECT_EQ(right.await_word(3), Word::kRepeat);
     EXPECT_EQ(right.machine.follower().counts().repeats, 1U);
     EXPECT_EQ(right.machine.follower().counts().late, 2U);
 }
