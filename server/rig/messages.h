@@ -9,8 +9,8 @@
 
 namespace skyig::server::rig {
 
-/// Of one frame's state. \see FrameCoder
-inline constexpr std::size_t kMostStateBytes = 4096;
+/// Of one frame's state: the fullest has room; a usual one is below a kilobyte. \see FrameCoder
+inline constexpr std::size_t kMostStateBytes = 16384;
 inline constexpr std::size_t kMostNameBytes = 32;
 inline constexpr std::size_t kMostBuildBytes = 63;
 inline constexpr std::size_t kMostGlBytes = 127;
