@@ -96,9 +96,11 @@ void Leader::tell(const FrameState& state) {
     const std::size_t size = coder_.encode(state, frame_message_.state);
     if (size == 0) {
         ++counts_.too_large;
-        log_.limited("rig too large", kRepeatAfter_s, Severity::kError,
-                     "frame {} holds more than {} bytes of weather and texts: the nodes do not draw it",
-                     frame_message_.frame, kMostStateBytes);
+        log_.limited(
+            "rig too large", kRepeatAfter_s, Severity::kError,
+            "frame {} holds more than {} bytes, or a picture of cloud that the settings did not have at the "
+            "start: the nodes do not draw it",
+            frame_message_.frame, kMostStateBytes);
         return;
     }
     frame_message_.state.resize(size);

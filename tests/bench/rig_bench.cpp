@@ -8,59 +8,21 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
-#include <string>
 #include <vector>
 
-#include "server/clock.h"
-#include "server/log.h"
 #include "server/pace.h"
-#include "server/rig/dds_link.h"
-#include "server/rig/machine.h"
+#include "tests/support/rig_program.h"
 
 namespace {
 
 using namespace skyig::server;
 
-constexpr double kRate_hz = 30.0;
-constexpr rig::Key kKey{1, 2};
-
-std::string name_of(int node) {
-    return fmt::format("node-{}", node);
-}
-
-/// All that a machine of the rig needs.
-struct Program {
-    Program(int node, int nodes, int domain)
-        : log(clock, [](Severity, std::string_view) {}),
-          link(rig::open_dds_link({.domain = static_cast<std::uint32_t>(domain),
-                                   .interface = "lo",
-                                   .peers = {"127.0.0.1"},
-                                   .period_ns = static_cast<std::int64_t>(1e9 / kRate_hz),
-                                   .most_programs = 40})),
-          opened(link ? "" : link.error()) {
-        if (!link) return;
-        rig::MachineSettings settings{
-            .self = {name_of(node), static_cast<std::uint64_t>(clock.utc_ns()), "bench", 1},
-            .leaders = {name_of(0)},
-            .nodes = {},
-            .wait_ns = 20'000'000};
-        for (int i = 0; i <= nodes; ++i)
-            settings.nodes.push_back(name_of(i));
-        machine = std::make_unique<rig::Machine>(settings, kKey, coder, **link, clock, log);
-    }
-
-    SystemClock clock;
-    Log log;
-    rig::FrameCoder coder;
-    skyig::protocol::Result<std::unique_ptr<rig::Link>, std::string> link;
-    std::string opened;
-    std::unique_ptr<rig::Machine> machine;
-};
+using skyig::tests::RigProgram;
+constexpr double kRate_hz = RigProgram::kRate_hz;
 
 /// Follows until it is killed.
 [[noreturn]] void run_node(int node, int nodes, int domain) {
-    Program program(node, nodes, domain);
+    RigProgram program(node, nodes, domain);
     if (!program.machine) std::_Exit(1);
     for (;;) {
         if (!program.machine->await_work([] { return true; })) std::_Exit(0);
@@ -73,16 +35,13 @@ struct Program {
 }
 
 void run_leader(int nodes, int domain, int frames) {
-    Program program(0, nodes, domain);
+    RigProgram program(0, nodes, domain);
     if (!program.machine) {
-        fmt::print("{}\n", program.opened);
+        fmt::print("{}\n", program.link.error());
         return;
     }
     rig::Leader& leader = program.machine->leader();
-    (void)program.machine->await_work([] { return true; });
-    const std::int64_t end_ns = program.clock.monotonic_ns() + 20'000'000'000;
-    for (leader.listen(); !leader.all_here() && program.clock.monotonic_ns() < end_ns; leader.listen())
-        (**program.link).wait(10'000'000);
+    (void)program.await_nodes(20.0);
     ClockPace pace(program.clock, kRate_hz);
     rig::FrameState state;
     state.scene.weather.cloud_count = 3;

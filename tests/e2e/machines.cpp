@@ -95,7 +95,7 @@ std::string rig_toml(const RigSettings& settings, const std::string& key_file) {
     }
     for (int i = 0; i < settings.machines; ++i) {
         text += channel_toml(std::string("of-") + kMachineNames[i], settings.width_px, settings.height_px,
-                             60 * i - 60);
+                             settings.yaw_deg * (i - 1));
         text += "node = \"" + std::string(kMachineNames[i]) + "\"\n";
     }
     return text;

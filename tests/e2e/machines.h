@@ -48,6 +48,8 @@ struct RigSettings {
     double wait_ms = 10.0;
     int width_px = 160;
     int height_px = 128;
+    /// Between the channels' view axes.
+    int yaw_deg = 60;
 };
 inline constexpr const char* kMachineNames[] = {"lead", "left", "right"};
 [[nodiscard]] std::string rig_toml(const RigSettings& settings, const std::string& key_file);
