@@ -36,6 +36,8 @@ class GlPainter final : public Painter {
     /// reset it takes as long as a start; while the device cannot be had it is asked for every
     /// kRetryFrames; the channels keep what they show and have failed.
     void prepare(const render::Scene& scene) override;
+    [[nodiscard]] render::eye::Adaptation eyes() const override;
+    void adapt_as(const render::eye::Adaptation& eyes) override;
     void draw(std::size_t channel) override;
     bool present() override;
     /// Black while there is no device.

@@ -16,7 +16,7 @@ ImageWriter::ImageWriter(Settings settings, Files files)
         for (const render::Channel& channel : settings_.channels) {
             const auto pixels =
                 static_cast<std::size_t>(channel.width_px) * static_cast<std::size_t>(channel.height_px);
-            frame.channels.emplace_back(pixels * 4);
+            frame.channels.emplace_back(channel.elsewhere ? 0 : pixels * 4);
         }
     }
     // What it holds may be bound to the thread that uses it, as an OpenGL context is.
@@ -98,6 +98,7 @@ void ImageWriter::run(const Files& files) {
 
 void ImageWriter::write(const Frame& frame, const WriteFile& write_file) {
     for (std::size_t i = 0; i < settings_.channels.size(); ++i) {
+        if (settings_.channels[i].elsewhere) continue;
         const std::string path = fmt::format("{}/{}_{:06}.{}", settings_.directory,
                                              settings_.channels[i].name, frame.number, settings_.extension);
         std::string error;
