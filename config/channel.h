@@ -34,6 +34,8 @@ enum class WarpDrawing : std::uint8_t { kDirect, kResampled };
 struct Channel {
     /// 1..32 of letters, digits, '-' and '_', unique: it becomes part of file names.
     std::string name;
+    /// Machine of the rig that draws it; empty without a rig.
+    std::string node;
     int width_px = 1280;
     int height_px = 1024;
     /// Signed half angles from the view axis to each side: left < right, bottom < top; left and bottom

@@ -62,6 +62,7 @@ ChannelPlaces read_channel(TableReader& table, ErrorList& errors, const Config& 
         }
     }
     table.require("name", "a short text such as \"centre\"");
+    read_channel_node(table, config.rig, channel);
     read_offset(table, channel, places);
     read_projection(table, errors.file(), channel);
     if (const Value* value = table.integer("view_id", channel.view_id, 0, 65535); value != nullptr) {

@@ -12,6 +12,7 @@
 #include "config/night.h"
 #include "config/overlay.h"
 #include "config/pacing.h"
+#include "config/rig.h"
 #include "config/screen.h"
 #include "config/sky.h"
 #include "config/source.h"
@@ -194,6 +195,8 @@ struct Config {
     Logging log;
     Status status;
     Preview preview;
+    /// Not given: one machine draws all channels.
+    std::optional<Rig> rig;
     /// 1..kMaxChannels
     std::vector<Channel> channels;
 };

@@ -165,8 +165,10 @@ Config read_config(const Table& document, ErrorList& errors) {
     read_status(status, config.status);
     read_preview(root.table("preview"), config.preview);
     read_windows(root, errors, config.windows);
+    read_rig(root, errors, config.rig);
     read_channels(root, errors, config);
     place_channels(errors, config);
+    check_windows_of_nodes(errors, config, {});
     check_pacing(daemon, config);
     root.finish();
     return config;

@@ -16,6 +16,11 @@ void read_sources(TableReader& root, ErrorList& errors, const Host& host, std::v
 /// Reads [status].
 void read_status(TableReader& table, Status& status);
 
+/// Reads [rig] with its machines, and which of them draws a [[channel]]; a window is one machine's.
+void read_rig(TableReader& root, ErrorList& errors, std::optional<Rig>& rig);
+void read_channel_node(TableReader& table, const std::optional<Rig>& rig, Channel& channel);
+void check_windows_of_nodes(ErrorList& errors, const Config& config, const Place& place);
+
 /// Reads [daemon], [overload].
 void read_daemon(TableReader& table, Daemon& daemon);
 void read_overload(TableReader table, Overload& overload);

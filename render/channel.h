@@ -48,6 +48,8 @@ struct Channel {
     double render_scale = 1.0;
     /// Null: no other projector shines on the screen. Not of targets of luminance. \see warp/blend.h
     std::shared_ptr<const warp::Blend> blend = {};
+    /// Another renderer draws it: it takes part in all that channels share, and has no picture here.
+    bool elsewhere = false;
 };
 
 /// How what is drawn of a view becomes its channel's picture.

@@ -7,14 +7,17 @@ namespace skyig::render {
 
 ChannelPictures::ChannelPictures(std::span<const Channel> channels, gl::PixelFormat format)
     : drawn_(channels.begin(), channels.end()), places_(channels.size()), format_(format) {
+    const auto own = static_cast<std::size_t>(std::count_if(
+        channels.begin(), channels.end(), [](const Channel& channel) { return !channel.elsewhere; }));
     std::size_t failed = 0;
     for (std::size_t i = 0; i < channels.size(); ++i) {
         places_[i].width_px = channels[i].width_px;
         places_[i].height_px = channels[i].height_px;
+        if (channels[i].elsewhere) continue;
         try {
             picture(i);
         } catch (const std::runtime_error&) {
-            if (++failed == channels.size()) throw;
+            if (++failed == own) throw;
         }
     }
 }

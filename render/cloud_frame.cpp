@@ -237,6 +237,8 @@ void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
         }
     }
     refresh_backdrops(light, air, light_revision + 1);
+    if (shadow_ != nullptr)
+        shadow_cells_ = shadow_->cells(static_cast<float>(map_.geometry().worst_texel_rad()));
     const std::size_t most = map_.seen_tiles().size() * kTileFloats;
     for (auto& texels : texels_) {
         if (texels.size() < most) texels.resize(most);
@@ -258,7 +260,7 @@ void CloudFrame::refresh_tile(int tile, const SkyLight& light, std::uint64_t ton
     const std::size_t first = count * kTileFloats;
     const bool shaded = shaded_from_m(tile) > 0.0;
     tile_.take(map_, tile, backdrops_[index], near_, light, flashes);
-    if (shaded) tile_.shade(*shadow_, backdrops_[index]);
+    if (shaded) tile_.shade(shadow_cells_, backdrops_[index]);
     const std::span<float> things =
         serves_things_ ? std::span{things_}.subspan(count * CloudTile::kThingFloats, CloudTile::kThingFloats)
                        : std::span<float>{};

@@ -11,6 +11,7 @@
 
 #include "render/cloud/cloud_map.h"
 #include "render/cloud/lightning.h"
+#include "render/cloud/shadow_cells.h"
 #include "render/cloud/tile_tone.h"
 #include "render/cloud_tile.h"
 #include "render/deferred.h"
@@ -116,6 +117,7 @@ class CloudFrame {
     cloud::CloudMap map_;
     PatchColumns patches_;
     const GroundShadow* shadow_ = nullptr;
+    cloud::ShadowCells shadow_cells_{};  // of this frame
     bool serves_things_ = false;
     std::vector<float> things_;
     bool shown_ = false;

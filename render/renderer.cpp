@@ -46,7 +46,7 @@ void Renderer::Impl::make_ready() noexcept {
         if (shows_screen && !patterns) patterns = std::make_unique<PatternPass>(placement);
         if (shows_screen && !texts) texts = std::make_unique<TextPass>();
         for (std::size_t i = 0; i < channels.size(); ++i) {
-            if (!channels[i].warp || channels[i].drawing != WarpDrawing::kResampled) continue;
+            if (channels[i].elsewhere || !channels[i].warp || channels[i].drawing != WarpDrawing::kResampled) continue;
             make_flat_picture(i);
             warps.make_resampling();
         }
@@ -231,7 +231,8 @@ const FrameReport& Renderer::prepare(const Scene& scene) {
 }
 
 bool Renderer::Impl::shows(std::size_t channel) const noexcept {
-    return channel < channels.size() && channel < scene.view_count && has_area(scene.views[channel].frustum);
+    return channel < channels.size() && !channels[channel].elsewhere && channel < scene.view_count &&
+           has_area(scene.views[channel].frustum);
 }
 
 glm::dmat4 Renderer::Impl::clip_from_enu(std::size_t channel) const noexcept {

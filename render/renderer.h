@@ -61,7 +61,7 @@ class Renderer {
 
     /// The eyes' state after the last frame; what a renderer made after a reset of the device goes on from.
     [[nodiscard]] const eye::Adaptation& adaptation() const noexcept;
-    /// Before the first prepare(): its frame is adapted as if `eyes` had seen the frames before.
+    /// The next prepare() goes on from `eyes`, as they stood before that frame.
     void adapt_as(const eye::Adaptation& eyes) noexcept;
 
     /// All work that the channels share. Channels beyond `scene.view_count` and those whose frustum has no

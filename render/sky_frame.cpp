@@ -59,6 +59,16 @@ ClippedLight clipped_light(const std::array<double, eye::kProbeCount>& probes_cd
     return clipped;
 }
 
+// By day, the more the brighter the clouds that are probed stand out of the sky behind them. Before a usual
+// screen: one adaptation serves all of a rig's.
+double adapted_to_clouds(double adaptation_cd_m2, ToneOperator tone,
+                         const std::array<double, eye::kProbeCount>& over_sky_cd_m2) {
+    DisplaySettings usual;
+    usual.tone = tone;
+    return eye::adaptation_to_bright(usual, adaptation_cd_m2,
+                                     adaptation_cd_m2 + eye::bright_part_cd_m2(over_sky_cd_m2));
+}
+
 // What a target of luminance asks of the dome: the finest there is.
 constexpr Quality kFinest{.error_codes = 0.0, .forced = {}, .thinned = {}};
 
@@ -185,11 +195,17 @@ void SkyFrame::take_weather(const Scene& scene) noexcept {
 
 void SkyFrame::adapt(const Scene& scene) {
     eye::LuminanceMean all;
+    std::array<double, eye::kProbeCount> over_sky_cd_m2{};
     for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
         const eye::ProbeDirection& probe = eye::probe_directions()[i];
         const double elevation =
             std::min(light_.horizon_elevation_rad + probe.above_horizon_rad, kZenith_rad);
-        probes_cd_m2_[i] = probed_luminance_cd_m2(elevation, probe.azimuth_rad, i);
+        const glm::vec3 behind = light_.rgb_cd_m2(elevation, probe.azimuth_rad, Side::kByElevation);
+        const auto sky_cd_m2 = static_cast<double>(shaders32::luminance_709(behind));
+        probes_cd_m2_[i] =
+            clouds_.shown() ? shaders64::luminance_709(clouds_.probed(*air_between_, glm::dvec3{behind}, i))
+                            : sky_cd_m2;
+        over_sky_cd_m2[i] = std::max(probes_cd_m2_[i] - sky_cd_m2, 0.0);
         all.add(probes_cd_m2_[i]);
     }
     const DisplaySettings& eye = displays_.front();
@@ -207,24 +223,9 @@ void SkyFrame::adapt(const Scene& scene) {
     double wanted_cd_m2 =
         eye.adapt_to == AdaptationSource::kViewMean ? all.mean_cd_m2() : all.log_average_cd_m2();
     if (eye.adapt_to == AdaptationSource::kSky && clouds_.shown())
-        wanted_cd_m2 = adapted_to_clouds(wanted_cd_m2, eye.tone);
+        wanted_cd_m2 = adapted_to_clouds(wanted_cd_m2, eye.tone, over_sky_cd_m2);
     if (eye.fixed_adaptation_cd_m2 > 0.0) wanted_cd_m2 = eye.fixed_adaptation_cd_m2;
     adaptation_.update(wanted_cd_m2, scene.time_s, tables_.jumped(), eye);
-}
-
-double SkyFrame::adapted_to_clouds(double adaptation_cd_m2, ToneOperator tone) const {
-    std::array<double, eye::kProbeCount> over_sky_cd_m2{};
-    for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
-        const eye::ProbeDirection& probe = eye::probe_directions()[i];
-        const double elevation =
-            std::min(light_.horizon_elevation_rad + probe.above_horizon_rad, kZenith_rad);
-        over_sky_cd_m2[i] = std::max(probes_cd_m2_[i] - luminance_cd_m2(elevation, probe.azimuth_rad), 0.0);
-    }
-    // Before a usual screen: one adaptation serves all of a rig's.
-    DisplaySettings usual;
-    usual.tone = tone;
-    return eye::adaptation_to_bright(usual, adaptation_cd_m2,
-                                     adaptation_cd_m2 + eye::bright_part_cd_m2(over_sky_cd_m2));
 }
 
 void SkyFrame::tone_screens(const Scene& scene, double smallest_pixel_sr) {
@@ -267,12 +268,6 @@ double SkyFrame::luminance_cd_m2(double elevation_rad, double azimuth_rad) const
 double SkyFrame::clouded_luminance_cd_m2(double elevation_rad, double azimuth_rad) const {
     const glm::dvec3 behind{light_.rgb_cd_m2(elevation_rad, azimuth_rad, Side::kByElevation)};
     return shaders64::luminance_709(through_clouds(behind, direction_of({elevation_rad, azimuth_rad})));
-}
-
-double SkyFrame::probed_luminance_cd_m2(double elevation_rad, double azimuth_rad, std::size_t probe) const {
-    if (!clouds_.shown()) return luminance_cd_m2(elevation_rad, azimuth_rad);
-    const glm::dvec3 behind{light_.rgb_cd_m2(elevation_rad, azimuth_rad, Side::kByElevation)};
-    return shaders64::luminance_709(clouds_.probed(*air_between_, behind, probe));
 }
 
 // Adaptation leaves the belt out, so that it may depend on what the eye sees at all.

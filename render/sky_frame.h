@@ -75,11 +75,8 @@ class SkyFrame {
     [[nodiscard]] int exposure_exponent() const noexcept { return exposure_exponent_; }
     [[nodiscard]] double adaptation_cd_m2() const noexcept { return adaptation_.luminance_cd_m2(); }
     [[nodiscard]] const eye::Adaptation& adaptation() const noexcept { return adaptation_; }
-    /// Before the first prepare(). \see Renderer::adapt_as()
-    void adapt_as(const eye::Adaptation& eyes) noexcept {
-        adaptation_ = eyes;
-        adaptation_.resume();
-    }
+    /// \see Renderer::adapt_as()
+    void adapt_as(const eye::Adaptation& eyes) noexcept { adaptation_ = eyes; }
     [[nodiscard]] const sky::AirTables& air() const noexcept { return tables_.air(); }
     [[nodiscard]] const LightTables& tables() const noexcept { return tables_; }
     [[nodiscard]] const DisplaySettings& display(std::size_t screen = 0) const noexcept {
@@ -144,10 +141,6 @@ class SkyFrame {
     void tone_screens(const Scene& scene, double smallest_pixel_sr);
     [[nodiscard]] double luminance_cd_m2(double elevation_rad, double azimuth_rad) const;
     [[nodiscard]] double clouded_luminance_cd_m2(double elevation_rad, double azimuth_rad) const;
-    [[nodiscard]] double probed_luminance_cd_m2(double elevation_rad, double azimuth_rad,
-                                                std::size_t probe) const;
-    /// By day, the more the brighter the clouds that are probed stand out of the sky behind them.
-    [[nodiscard]] double adapted_to_clouds(double adaptation_cd_m2, ToneOperator tone) const;
     /// What the veils of a source were laid for.
     struct VeilMade {
         GlareSource source;

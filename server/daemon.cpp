@@ -23,11 +23,10 @@
 #include "server/gl_painter.h"
 #include "server/light_files.h"
 #include "server/live_settings.h"
-#include "server/live_wire.h"
 #include "server/log.h"
-#include "server/pace.h"
-#include "server/recorder.h"
-#include "server/replay.h"
+#include "server/outside.h"
+#include "server/rig/fingerprint.h"
+#include "server/rig_part.h"
 #include "server/service/service_manager.h"
 #include "server/status/status_port.h"
 #include "server/stop_signal.h"
@@ -52,7 +51,7 @@ std::unique_ptr<ImageWriter> open_images(const DaemonOptions& options, const con
                                              options.out_directory, error.message()));
     }
     ImageWriter::Settings settings{.directory = options.out_directory,
-                                   .channels = render_channels(config),
+                                   .channels = render_channels(config, options.node),
                                    .buffers = kImageBuffers,
                                    .extension = options.out_format};
     if (options.out_format != "png") {
@@ -62,123 +61,32 @@ std::unique_ptr<ImageWriter> open_images(const DaemonOptions& options, const con
     }
     return std::make_unique<ImageWriter>(
         std::move(settings),
-        [channels = render_channels(config), gamma = config.display.gamma](
+        [channels = render_channels(config, options.node), gamma = config.display.gamma](
             const std::string& path, const ImageWriter::Frame& frame, std::size_t i, std::string& why) {
             return render::output::write_png(path, channels[i].width_px, channels[i].height_px,
                                              frame.channels[i], why, gamma);
         });
 }
 
-std::unique_ptr<Preview> open_preview(const config::Config& config) {
+std::unique_ptr<Preview> open_preview(const DaemonOptions& options, const config::Config& config) {
     if (!config.preview.enabled || !config.status.enabled) return nullptr;
     return std::make_unique<Preview>(
-        render_channels(config),
+        render_channels(config, options.node),
         Preview::Settings{config.preview.rate_hz, config.preview.width_px, config.preview.quality},
         &render::output::encode_jpeg);
 }
 
-std::string_view bus_text(protocol::transport::CanState state) {
-    switch (state) {
-        case protocol::transport::CanState::kMissing:
-            return " (waiting: there is no CAN interface of this name)";
-        case protocol::transport::CanState::kDown:
-            return " (waiting: it is down)";
-        case protocol::transport::CanState::kUp:
-            break;
-    }
-    return "";
-}
-
-/// Who is heard where: "CIGI on udp 127.0.0.1:8004, answers to 127.0.0.1:8005; instructor on udp ...".
-std::string heard_text(const config::Config& config, const LiveWire& wire) {
-    std::string text = "no host";
-    if (const auto local = wire.local(0)) {
-        text = fmt::format("CIGI on udp {}, answers to {}", *local,
-                           config.host.reply_to ? fmt::format("{}:{}", config.host.reply_to->address,
-                                                              config.host.reply_to->port)
-                                                : std::string("the sender"));
-    }
-    for (std::size_t i = 0; i < config.sources.size(); ++i) {
-        const config::Source& source = config.sources[i];
-        if (const auto local = wire.local(i + 1)) {
-            fmt::format_to(std::back_inserter(text), "; {} on udp {}", source.name, *local);
-        } else if (const protocol::transport::CanReceiver* bus = wire.bus(i + 1)) {
-            fmt::format_to(std::back_inserter(text), "; {} on {}{}", source.name, bus->interface(),
-                           bus_text(bus->state()));
-        }
-    }
-    return text;
-}
-
-void say_banner(Log& log, const config::Config& config, const GlPainter& painter, const std::string& heard) {
+void say_banner(Log& log, const config::Config& config, const std::string& node, const GlPainter& painter,
+                const std::string& heard) {
     std::string channels;
     for (const config::Channel& channel : config.channels) {
+        if (!node.empty() && channel.node != node) continue;
         fmt::format_to(std::back_inserter(channels), "{}{} {}x{}", channels.empty() ? "" : ", ", channel.name,
                        channel.width_px, channel.height_px);
     }
-    log.info("skyigd {}: OpenGL {}; channels {}; {:g} Hz; {}", SKYIG_VERSION, painter.description(), channels,
-             config.daemon.rate_hz, heard);
+    log.info("skyigd {}: OpenGL {}; channels {}; {:g} Hz; {}", SKYIG_VERSION, painter.description(),
+             channels.empty() ? "none" : channels, config.daemon.rate_hz, heard);
 }
-
-/// What the frame loop hears and goes by: sockets and the system's clock, or a recording and its own.
-class Outside {
-  public:
-    Outside(const DaemonOptions& options, const config::Config& config, Clock& wall,
-            ManualClock& replay_clock, Log& log) {
-        if (options.replay_path.empty()) {
-            live_.emplace(config, wall, log);
-            const bool wanted = config.daemon.pacing == config::Pacing::kDisplay;
-            if (wanted && !options.headless) {
-                live_pace_ = std::make_unique<DisplayPace>(wall, config.daemon.rate_hz);
-            } else {
-                live_pace_ = std::make_unique<ClockPace>(wall, config.daemon.rate_hz);
-            }
-            if (wanted && options.headless) log.notice("without windows frames are paced by the clock");
-        } else {
-            replay_.emplace(options.replay_path, config);
-            replay_wire_.emplace(*replay_);
-            replay_pace_.emplace(*replay_, replay_clock, wall, config.daemon.rate_hz, options.replay_speed);
-        }
-    }
-
-    void record(const std::string& path, const config::Config& config, const RecordingFacts& facts) {
-        recorder_ = std::make_unique<Recorder>(path, config, facts);
-        recording_wire_.emplace(plain_wire(), *recorder_);
-    }
-
-    /// No more frames come.
-    void finish() {
-        if (recorder_) recorder_->finish();
-    }
-
-    [[nodiscard]] Wire& wire() { return recording_wire_ ? *recording_wire_ : plain_wire(); }
-    [[nodiscard]] Pace& pace() {
-        if (replay_pace_) return *replay_pace_;
-        return *live_pace_;
-    }
-    [[nodiscard]] const Replay* replay() const noexcept { return replay_ ? &*replay_ : nullptr; }
-    [[nodiscard]] const LiveWire* live() const noexcept { return live_ ? &*live_ : nullptr; }
-    [[nodiscard]] const Recorder* recorder() const noexcept { return recorder_.get(); }
-
-    [[nodiscard]] std::string heard(const DaemonOptions& options, const config::Config& config) const {
-        if (live_) return heard_text(config, *live_);
-        return fmt::format("replays {}", options.replay_path);
-    }
-
-  private:
-    [[nodiscard]] Wire& plain_wire() {
-        if (replay_wire_) return *replay_wire_;
-        return *live_;
-    }
-
-    std::optional<LiveWire> live_;
-    std::unique_ptr<Pace> live_pace_;
-    std::optional<Replay> replay_;
-    std::optional<ReplayWire> replay_wire_;
-    std::optional<ReplayPace> replay_pace_;
-    std::unique_ptr<Recorder> recorder_;
-    std::optional<RecordingWire> recording_wire_;
-};
 
 /// A recording starts from the instant that it was started from, unless the settings say another.
 ephemeris::UtcClockTime start_of(const config::Config& config, const Outside& outside, const Clock& wall) {
@@ -286,10 +194,11 @@ void write_report(const std::string& path, const RunReport& report) {
 }
 
 std::unique_ptr<GlPainter> make_painter(const DaemonOptions& options, const config::Config& config) {
-    GlSeatSettings settings{
-        .channels = render_channels(config), .display = display_settings(config), .quality = quality(config)};
+    GlSeatSettings settings{.channels = render_channels(config, options.node),
+                            .display = display_settings(config),
+                            .quality = quality(config)};
     if (!options.headless && config.output.kind == config::OutputKind::kWindow) {
-        settings.windows = window_layouts(config);
+        settings.windows = window_layouts(config, options.node);
         settings.vsync = config.output.vsync;
     }
     return std::make_unique<GlPainter>(std::move(settings));
@@ -308,17 +217,27 @@ struct Reload {
     world::World& world;
     GlPainter& painter;
     Log& log;
+    /// No machine of a rig.
+    bool alone;
+    /// Settings were taken, and no frame has been drawn with them yet.
+    bool taken = false;
 
     /// Takes what can change while frames go on.
     void take(const config::Config& before) const {
         const config::Config& now = settings.config();
         world.take_settings();
         log.set_threshold(severity_of(now.log.level));
-        if (quality(before).error_codes != quality(now).error_codes) painter.take_quality(quality(now));
+        if (quality(before).error_codes == quality(now).error_codes) return;
+        if (!alone)
+            log.warning(
+                "[quality] is taken when all machines of the rig start anew: they draw alike until then");
+        else
+            painter.take_quality(quality(now));
     }
 
     /// Once a frame: reads settings anew when that is asked for, and takes them when they have been read.
-    void look(bool asked, FrameLoop& loop) const {
+    void look(bool asked, FrameLoop& loop) {
+        if (std::exchange(taken, false)) service.ready("settings taken");
         if (asked) {
             service.reloading(clock.monotonic_ns());
             settings.read_anew();
@@ -326,14 +245,14 @@ struct Reload {
         const LiveSettings::Result result =
             settings.take([this](const config::Config& before) { take(before); }, log);
         if (result == LiveSettings::Result::kNone) return;
-        const bool taken = result == LiveSettings::Result::kTaken;
+        taken = result == LiveSettings::Result::kTaken;
         loop.note_settings(taken);
-        service.ready(taken ? "settings taken" : "settings refused");
+        if (!taken) service.ready("settings refused");
     }
 };
 
 /// A replay is the same each time: it listens to no new settings.
-void run_frames(FrameLoop& loop, StopSignal& stop, const Reload& reload, bool replays) {
+void run_frames(FrameLoop& loop, StopSignal& stop, Reload reload, bool replays) {
     loop.run([&] {
         const bool ends = stop.requested();
         reload.look(stop.reload_requested() && !replays, loop);
@@ -358,7 +277,10 @@ void run(const DaemonOptions& options, const config::Config& start, const config
         if (events.is_open())
             events << (running == nullptr ? 0 : running->frame_number()) << ' ' << line << '\n';
     });
-    Outside outside(options, config, clock, replay_clock, log);
+    const bool in_rig = config.rig && !options.node.empty();
+    if (config.rig && !in_rig) log.notice("without --node this machine draws the channels of the whole rig");
+    Outside outside(options, config, clock, replay_clock, log,
+                    !in_rig || RigPart::may_lead(*config.rig, options.node));
     const ephemeris::UtcClockTime start_utc = start_of(config, outside, clock);
     world::World world(config, start_utc, log);
     const std::unique_ptr<ImageWriter> images = open_images(options, config);
@@ -369,8 +291,9 @@ void run(const DaemonOptions& options, const config::Config& start, const config
     GlPainter& painter = *made;
     painter.draw_clouds();
     painter.make_ready();
-    say_banner(log, config, painter, outside.heard(options, config));
-    if (const std::string path = record_path(options, config, clock); !path.empty()) {
+    say_banner(log, config, options.node, painter, outside.heard(options, config));
+    if (const std::string path = record_path(options, config, clock);
+        !path.empty() && outside.wire() != nullptr) {
         outside.record(path, config,
                        {ephemeris::to_iso(start_utc, 9), config.daemon.rate_hz, "skyigd " SKYIG_VERSION,
                         painter.description()});
@@ -378,19 +301,34 @@ void run(const DaemonOptions& options, const config::Config& start, const config
     }
 
     const auto exchange = std::make_unique<status::SnapshotExchange>();
-    const std::unique_ptr<Preview> preview = open_preview(config);
+    const std::unique_ptr<Preview> preview = open_preview(options, config);
+    std::optional<RigPart> rig;
+    if (in_rig) {
+        const auto idle = [&service, &clock, &stop] {
+            service.frame_drawn(clock.monotonic_ns());
+            return !stop.requested();
+        };
+        rig.emplace(config, options.node, rig::fingerprint(keys, options.config_path),
+                    RigEnds{clock, log, outside.pace(), outside.wire(), painter, world, idle,
+                            outside.replay() != nullptr});
+    }
     FrameLoop loop(config,
-                   {clock, log, outside.pace(), outside.wire(), world, painter, images.get(), hashes.get(),
+                   {clock, log, rig ? rig->pace() : outside.pace(), rig ? rig->wire() : *outside.wire(),
+                    world, rig ? static_cast<Painter&>(rig->painter()) : painter, images.get(), hashes.get(),
                     table.get(), exchange.get(), preview.get(), &service},
                    options.frames, options.out_every, std::move(orientation));
     log.info("ephemeris {}", loop.report().ephemeris_text());
     const auto status_port = open_status(config.status, status_facts(loop, outside, clock), *exchange,
                                          outside, clock, preview.get(), log);
+    // A node may wait for its leader as long as it likes.
+    if (rig) service.ready(fmt::format("{} of a rig", options.node));
     loop.warm_up();
     running = &loop;
     service.ready(outside.heard(options, config));
+    painter.before_anew([&service] { service.frame_takes_long(); });
     const std::int64_t cpu_before_ns = clock.processor_ns();
-    run_frames(loop, stop, {settings, service, clock, world, painter, log}, !options.replay_path.empty());
+    run_frames(loop, stop, {settings, service, clock, world, painter, log, !in_rig},
+               !options.replay_path.empty());
     const std::int64_t cpu_ns = clock.processor_ns() - cpu_before_ns;
     if (images) images->finish();
     outside.finish();

@@ -17,6 +17,8 @@ inline constexpr std::array<std::string_view, 3> kOutFormats{"png", "exr", "pfm"
 
 struct DaemonOptions {
     std::string config_path;
+    /// Which machine of the settings' rig this one is; empty: it draws all channels itself.
+    std::string node;
     /// Only check the settings.
     bool check = false;
     /// Only print the settings that hold.

@@ -56,7 +56,9 @@ FrameLoop::FrameLoop(const config::Config& config, const FrameLoopParts& parts, 
 }
 
 void FrameLoop::warm_up() {
-    parts_.painter.prepare(scenes_.build(parts_.world, 0));
+    render::Scene scene = scenes_.build(parts_.world, 0);
+    parts_.painter.settle(scene);
+    parts_.painter.prepare(scene);
     for (std::size_t channel = 0; channel < config_.channels.size(); ++channel)
         parts_.painter.draw(channel);
     tell_date();
@@ -72,9 +74,9 @@ bool FrameLoop::run_frame() {
     if (!next) return false;
     const FramePacer::Slot slot = *next;
     const std::int64_t start_ns = parts_.clock.monotonic_ns();
-    if (frame_number_ == 0) first_start_ns_ = start_ns;
+    if (first_start_ns_ == 0) first_start_ns_ = start_ns;
     const std::int64_t utc_ns = parts_.clock.steady_utc_ns();
-    ++frame_number_;
+    frame_number_ = slot.told_number != 0 ? slot.told_number : frame_number_ + 1;
 
     thin(slot);
     answer_host(slot, utc_ns);
@@ -86,6 +88,7 @@ bool FrameLoop::run_frame() {
     take_input(slot, times, stopwatch);
     render::Scene scene = scenes_.build(parts_.world, frame_number_);
     overlay_.write(parts_.world, slot.slots, scene);
+    parts_.painter.settle(scene);
     times.input_ns += stopwatch.lap_ns();
     times_.input().add(times.input_ns);
     draw(scene, stopwatch, times);
@@ -93,6 +96,7 @@ bool FrameLoop::run_frame() {
     if (!wanted) parts_.log.notice("a window was closed: the daemon ends");
     tell_monitors();
     times.display_ns = stopwatch.lap_ns();
+    const std::int64_t shown_ns = parts_.painter.showed() ? start_ns + times.duration_ns() : 0;
     if (parts_.wire.live()) delays_.shown(parts_.clock.steady_utc_ns(), inbox_.frame_arrivals());
     hand_out(scene);
     times.output_ns = stopwatch.lap_ns();
@@ -100,8 +104,9 @@ bool FrameLoop::run_frame() {
     last_end_ns_ = start_ns + times.duration_ns();
     times_.frame().add(times.duration_ns());
     if (parts_.table != nullptr) {
-        parts_.table->add({frame_number_, utc_ns, slot.slots, slot.late, inbox_.arrivals() - arrivals_before},
-                          times_);
+        parts_.table->add(
+            {frame_number_, utc_ns, slot.slots, slot.late, inbox_.arrivals() - arrivals_before, shown_ns},
+            times_);
     }
     close_frame(slot, times);
     if (parts_.status != nullptr) publish_status(scene);
@@ -115,7 +120,8 @@ void FrameLoop::note_settings(bool taken) noexcept {
 }
 
 void FrameLoop::thin(const FramePacer::Slot& slot) {
-    const render::Thinned wanted = overload_ ? overload_->thinned() : render::Thinned(slot.thinned);
+    const bool own = overload_ && slot.told_number == 0;
+    const render::Thinned wanted = own ? overload_->thinned() : render::Thinned(slot.thinned);
     if (wanted != thinned_) parts_.painter.thin(wanted);
     thinned_ = wanted;
 }
@@ -130,7 +136,11 @@ void FrameLoop::take_input(const FramePacer::Slot& slot, status::FrameParts& tim
 }
 
 void FrameLoop::hand_out(const render::Scene& scene) {
-    if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images(scene);
+    if (!parts_.painter.showed()) return;
+    const bool written = frame_number_ % image_every_ == 0;
+    // Who draws scenes itself sees all of a replay, so that files do not depend on how many are wanted.
+    const bool seen = parts_.images != nullptr && parts_.images->takes_scenes() && parts_.pace.replays();
+    if (parts_.images != nullptr && (written || seen)) hand_out_images(scene, written);
     if (parts_.hashes != nullptr) hash_images();
     if (parts_.preview == nullptr) return;
     parts_.preview->offer(
@@ -177,7 +187,7 @@ void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::F
         times_.channel(channel).add(took_ns);
         times.channels_ns += took_ns;
         // What is crossed out shows no message.
-        if (!live || parts_.painter.health(channel).failed) continue;
+        if (!live || !parts_.painter.draws(channel) || parts_.painter.health(channel).failed) continue;
         last_utc_ns = parts_.clock.steady_utc_ns();
         if (first_utc_ns == 0) first_utc_ns = last_utc_ns;
         delays_.finished(channel, last_utc_ns, inbox_.frame_arrivals());
@@ -243,6 +253,7 @@ void FrameLoop::tell_resets() {
 
 void FrameLoop::hash_images() {
     for (std::size_t i = 0; i < config_.channels.size(); ++i) {
+        if (!parts_.painter.draws(i)) continue;
         const config::Channel& channel = config_.channels[i];
         read_back_.resize(static_cast<std::size_t>(channel.width_px) *
                           static_cast<std::size_t>(channel.height_px) * 4U);
@@ -251,13 +262,15 @@ void FrameLoop::hash_images() {
     }
 }
 
-void FrameLoop::hand_out_images(const render::Scene& scene) {
-    ImageWriter::Frame* images = parts_.images->try_acquire();
+void FrameLoop::hand_out_images(const render::Scene& scene, bool written) {
+    ImageWriter::Frame* images =
+        parts_.pace.replays() ? parts_.images->acquire() : parts_.images->try_acquire();
     if (images == nullptr) return;
+    images->written = written;
     images->number = frame_number_;
     if (parts_.images->takes_scenes()) images->scene = scene;
     for (std::size_t channel = 0; channel < images->channels.size(); ++channel)
-        parts_.painter.read_back(channel, images->channels[channel]);
+        if (parts_.painter.draws(channel)) parts_.painter.read_back(channel, images->channels[channel]);
     parts_.images->submit(images);
 }
 

@@ -19,8 +19,10 @@ class FramePacer {
         std::uint64_t slots = 0;
         /// The work of the frame before ended after this frame's deadline.
         bool late = false;
-        /// Of a recording: what the frame left out, by the numbers of render::Thin.
+        /// Of a recording, or of another machine's frame: what it left out, by the numbers of render::Thin.
         std::uint64_t thinned = 0;
+        /// Of another machine's frame: its number; 0 for this machine's next.
+        std::uint64_t told_number = 0;
     };
 
     /// \param rate_hz  frames a second, greater than 0

@@ -56,8 +56,10 @@ status::Facts FrameLoop::facts() const {
     facts.pace = pace_name(config_.daemon.pacing);
     for (const config::Thinning thinning : config_.overload.order)
         facts.thinning_order.emplace_back(config::thinning_name(thinning));
-    for (const config::Channel& channel : config_.channels)
+    for (const config::Channel& channel : config_.channels) {
         facts.channels.push_back(channel.name);
+        if (config_.rig) facts.channel_nodes.push_back(channel.node);
+    }
     for (const world::SourceRule& rule : world::source_rules(config_))
         facts.sources.push_back({rule.name, rule.kind, {}});
     facts.elevation_m = config_.weather.elevation_m;
@@ -110,6 +112,7 @@ void FrameLoop::take_stock(status::Snapshot& snapshot) const {
     snapshot.gl_errors = parts_.painter.gl_errors();
     snapshot.gl_resets = parts_.painter.resets();
     snapshot.settings = settings_;
+    parts_.painter.rig(snapshot.rig);
     if (parts_.images != nullptr) {
         const ImageWriter::Counts images = parts_.images->counts();
         snapshot.images_written = images.written;

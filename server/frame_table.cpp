@@ -27,7 +27,7 @@ FrameTable::FrameTable(const std::string& path, const std::vector<config::Channe
     fmt::print(file_.get(), "frame,utc_ns,slots,late,arrivals,input_us,shared_us");
     for (const config::Channel& channel : channels)
         fmt::print(file_.get(), ",{}_us", channel.name);
-    fmt::print(file_.get(), ",frame_us\n");
+    fmt::print(file_.get(), ",frame_us,shown_ns\n");
 }
 
 void FrameTable::add(const FrameRow& row, const FrameTimes& times) noexcept {
@@ -37,7 +37,8 @@ void FrameTable::add(const FrameRow& row, const FrameTimes& times) noexcept {
                  microseconds(times.shared()));
     for (std::size_t i = 0; i < times.channels(); ++i)
         std::fprintf(file_.get(), ",%.1f", microseconds(times.channel(i)));
-    std::fprintf(file_.get(), ",%.1f\n", microseconds(times.frame()));
+    std::fprintf(file_.get(), ",%.1f,%jd\n", microseconds(times.frame()),
+                 static_cast<std::intmax_t>(row.shown_ns));
 }
 
 }  // namespace skyig::server

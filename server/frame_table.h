@@ -21,10 +21,12 @@ struct FrameRow {
     bool late = false;
     /// Datagrams and CAN frames that it has taken.
     std::uint64_t arrivals = 0;
+    /// When it was shown, on the machine's monotonic clock; 0: the picture before stayed.
+    std::int64_t shown_ns = 0;
 };
 
 /// Columns frame, utc_ns, slots, late, arrivals, then microseconds: input_us, shared_us, one for each channel
-/// by its name, frame_us. Written by the frame loop itself, 64 KiB at a time: for measuring, not for a
+/// by its name, frame_us; last shown_ns. Written by the frame loop itself, 64 KiB at a time: for measuring, not for a
 /// cockpit.
 class FrameTable {
   public:

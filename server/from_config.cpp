@@ -77,6 +77,13 @@ std::vector<render::Channel> render_channels(const config::Config& config) {
     return channels;
 }
 
+std::vector<render::Channel> render_channels(const config::Config& config, const std::string& node) {
+    std::vector<render::Channel> channels = render_channels(config);
+    for (std::size_t i = 0; !node.empty() && i < channels.size(); ++i)
+        channels[i].elsewhere = config.channels[i].node != node;
+    return channels;
+}
+
 ephemeris::Model ephemeris_model(const config::Config& config) noexcept {
     switch (config.ephemeris.model) {
         case config::EphemerisModel::kAlmanac:

@@ -21,6 +21,10 @@ namespace skyig::server {
 
 [[nodiscard]] std::vector<render::Channel> render_channels(const config::Config& config);
 
+/// Those of a machine of a rig: the others are drawn elsewhere. An empty name: all are its own.
+[[nodiscard]] std::vector<render::Channel> render_channels(const config::Config& config,
+                                                           const std::string& node);
+
 [[nodiscard]] ephemeris::Model ephemeris_model(const config::Config& config) noexcept;
 
 /// The file that the settings name, read and checked; without one, one that knows nothing. Its error is a

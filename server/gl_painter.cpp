@@ -29,6 +29,8 @@ void GlPainter::sit_down() {
 
 void GlPainter::leave_lost_device() noexcept {
     eyes_ = seat_->renderer().adaptation();
+    // They were there all along, however long it takes.
+    eyes_->resume();
     errors_before_ += std::exchange(errors_, 0);
     seat_.reset();
     ++resets_;
@@ -63,7 +65,10 @@ void GlPainter::prepare(const render::Scene& scene) {
     }
     if (!seat_ && frames_to_retry_-- > 0) return;
     try {
-        if (!seat_) sit_down();
+        if (!seat_) {
+            if (before_anew_) before_anew_();
+            sit_down();
+        }
         prepare_seat(scene);
     } catch (const std::exception&) {
         // No memory, or the device is not back yet.
@@ -82,6 +87,18 @@ void GlPainter::prepare_seat(const render::Scene& scene) {
                report.plan.needs(render::Pass::kMoonSky);
     errors_ = report.gl_errors;
     adaptation_cd_m2_ = report.adaptation_cd_m2;
+}
+
+render::eye::Adaptation GlPainter::eyes() const {
+    if (seat_) return seat_->renderer().adaptation();
+    return eyes_.value_or(render::eye::Adaptation{});
+}
+
+void GlPainter::adapt_as(const render::eye::Adaptation& eyes) {
+    if (seat_)
+        seat_->renderer().adapt_as(eyes);
+    else
+        eyes_ = eyes;
 }
 
 void GlPainter::draw(std::size_t channel) {

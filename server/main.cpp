@@ -15,6 +15,7 @@
 #include "server/bus_input.h"
 #include "server/daemon.h"
 #include "server/from_config.h"
+#include "server/rig_part.h"
 #include "server/standard_output.h"
 #include "server/start_weather/start_weather.h"
 
@@ -30,6 +31,8 @@ void declare(CLI::App& app, DaemonOptions& options) {
     app.add_option("--config", options.config_path, "the site's settings (TOML)")
         ->required()
         ->type_name("FILE");
+    app.add_option("--node", options.node, "be this machine of the settings' rig, with its channels alone")
+        ->type_name("NAME");
     app.add_flag("--check", options.check, "check the settings, say all that is wrong, and end");
     app.add_flag("--print-config", options.print_config,
                  "print the settings that hold, defaults as comments, and end");
@@ -114,6 +117,12 @@ int run(int argc, char** argv) {
         return kWrongUsage;
     }
     if (const std::string fault = skyig::server::identifier_fault(*loaded.config); !fault.empty()) {
+        fmt::print(stderr, "{}: {}\n", options->config_path, fault);
+        return kWrongUsage;
+    }
+    if (const std::string fault =
+            skyig::server::RigPart::fault(*loaded.config, options->node, !options->replay_path.empty());
+        !fault.empty()) {
         fmt::print(stderr, "{}: {}\n", options->config_path, fault);
         return kWrongUsage;
     }

@@ -41,6 +41,7 @@ void Preview::offer(std::int64_t now_ns, const ReadBack& read_back) {
     for (std::size_t tried = 0; tried < slots_.size() && taken < most; ++tried) {
         const std::size_t i = (next_ + tried) % slots_.size();
         Slot& slot = *slots_[i];
+        if (channels_[i].elsewhere) continue;
         if (now_ns - slot.asked_ns.load(std::memory_order_relaxed) > kAskedFor_ns) continue;
         if (slot.taken_ns != 0 && now_ns - slot.taken_ns < interval_ns) continue;
         slot.taken_ns = now_ns;

@@ -6,11 +6,12 @@ skyig_library(server_loop
   DEPS server server_report server_service server_status server_world server_ephemeris config protocol_canaerospace protocol_cigi protocol_flightgear protocol_recording protocol_transport render_overlay render_scene fmt::fmt
        Threads::Threads)
 target_compile_definitions(server_loop PUBLIC SKYIG_VERSION="${PROJECT_VERSION}")
+add_subdirectory(rig)
 
 if(SKYIG_GL)
   skyig_library(server_painter SOURCES gl_painter.cpp gl_seat.cpp light_files.cpp window_layouts.cpp DEPS server_loop render render_desktop render_gl
                 PRIVATE_DEPS render_output)
-  add_executable(skyigd main.cpp daemon.cpp)
+  add_executable(skyigd main.cpp daemon.cpp outside.cpp rig_part.cpp)
   skyig_compile_together(skyigd)
-  target_link_libraries(skyigd PRIVATE skyig_build server_painter render_output config_reference)
+  target_link_libraries(skyigd PRIVATE skyig_build server_painter server_rig render_output config_reference)
 endif()

@@ -312,6 +312,8 @@ void add_status(CLI::App& app, StatusOptions& options) {
         ->type_name("PORT")
         ->excludes(url);
     app.add_flag("--json", options.json, "tell it as JSON, in a watch one line each time");
+    app.add_flag("--rig", options.rig,
+                 "only its rig of several machines: every node, its channels and frame");
 }
 
 /// The first word that is no option, when it is no verb either.

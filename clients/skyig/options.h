@@ -192,6 +192,8 @@ struct StatusOptions {
     /// Each page takes the place of the one before, where a person watches.
     bool clear_screen = false;
     bool json = false;
+    /// Only what it tells of the other machines.
+    bool rig = false;
 };
 
 /// skyig sky: a table of directions gets the sky's light.

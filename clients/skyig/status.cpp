@@ -13,6 +13,7 @@
 
 #include "clients/skyig/status/http_get.h"
 #include "clients/skyig/status/page.h"
+#include "clients/skyig/status/rig_page.h"
 
 namespace skyig::clients {
 
@@ -30,6 +31,18 @@ struct Told {
     std::optional<Json> status;
 };
 
+Told of_the_rig(const status::Url& url, const StatusOptions& options, const Json& status) {
+    const Json rig = status.value("rig", Json());
+    if (rig.is_null()) {
+        const bool began = status.at("frames") != 0;
+        return {fmt::format("{} {}\n", status::to_string(url),
+                            began ? "draws alone: its settings have no [rig]" : "has drawn no frame yet"),
+                {}};
+    }
+    if (!options.json) return {status::rig_text(rig), rig};
+    return {rig.dump(options.watch_s ? -1 : 2) + '\n', rig};
+}
+
 Told ask(const status::Url& url, const StatusOptions& options, const std::optional<Json>& before,
          const server::Clock& clock) {
     const auto body = status::http_get(url, "/status", kAnswerWithin, clock);
@@ -38,9 +51,12 @@ Told ask(const status::Url& url, const StatusOptions& options, const std::option
                             status::to_string(url), body.error()),
                 {}};
     }
-    if (options.json && !options.watch_s) return {*body, Json()};
     try {
         Json status = Json::parse(*body);
+        // Any web server answers something to any path.
+        (void)status.at("frames");
+        if (options.rig) return of_the_rig(url, options, status);
+        if (options.json && !options.watch_s) return {*body, std::move(status)};
         if (options.json) return {status.dump() + '\n', std::move(status)};
         return {status::page_text(status, before ? &*before : nullptr), std::move(status)};
     } catch (const Json::exception&) {

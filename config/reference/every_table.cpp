@@ -33,6 +33,9 @@ kind = "canaerospace"
 [[window]]
 name = "one"
 
+[rig]
+[[rig.node]]
+
 [[channel]]
 [channel.display]
 [channel.overlay]

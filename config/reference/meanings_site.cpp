@@ -123,6 +123,23 @@ constexpr std::array kSiteMeanings{
     Meaning{"preview", "rate_hz", "of each channel, at most"},
     Meaning{"preview", "width_px", "wider channels are made smaller by a whole factor"},
     Meaning{"preview", "quality", "of the JPEG"},
+    Meaning{"rig", "leader", "the machine that hears the host and says what all draw", "required"},
+    Meaning{
+        "rig", "stand_ins",
+        "machines that take its place when it is silent for half a second, the first first; the host must "
+        "send to them too",
+        "none"},
+    Meaning{"rig", "domain", "of DDS: rigs on one network each have their own"},
+    Meaning{"rig", "wait_ms",
+            "so long a frame that the leader has drawn waits for machines that have not; who is later keeps "
+            "the picture before"},
+    Meaning{"rig", "key_file", "proves that a machine is of the rig: whoever lacks it is not heard",
+            "required", "path of a file of 32 hexadecimal digits"},
+    Meaning{"rig.node", "name", "unique; `skyigd --node NAME` is this machine", "required",
+            "1..32 of letters, digits, `-`, `_`"},
+    Meaning{"rig.node", "address", "unique; where the other machines find it", "required", "IPv4"},
+    Meaning{"rig.node", "interface", "of that machine, `eth1`: nothing of the rig goes over another one",
+            "that with the address"},
     Meaning{
         "output", "kind",
         "where pictures are shown: nowhere (or in files by `skyigd --out`), or in windows on the desktop"},
@@ -141,6 +158,8 @@ constexpr std::array kSiteMeanings{
     Meaning{"window", "height_px", "size of its contents"},
     Meaning{"window", "frame", "border and title"},
     Meaning{"channel", "name", "unique; names the image files", {}, "1..32 of letters, digits, `-`, `_`"},
+    Meaning{"channel", "node", "with a `[rig]`: the machine that draws it", "with a `[rig]` required",
+            "name of a `[[rig.node]]`"},
     Meaning{"channel", "offset_m", "eye from the ownship's reference point: forward, right, down"},
     Meaning{"channel", "width_px", "of the picture", "required, but with `[channel.mpcdi]`"},
     Meaning{"channel", "height_px", "of the picture", "required, but with `[channel.mpcdi]`"},

@@ -67,8 +67,8 @@ std::string title_of(const std::string& table, const std::vector<std::string>& s
 
 std::string key_table(const std::string& table, const std::vector<KeyRow>& keys) {
     const std::vector<std::string> several{
-        "night.city",   "weather.layer", "weather.sheet", "weather.sheet.texture",
-        "weather.area", "source",        "window",        "channel"};
+        "night.city", "weather.layer", "weather.sheet", "weather.sheet.texture", "weather.area", "source",
+        "rig.node",   "window",        "channel"};
     std::string text = fmt::format("| {} | unit | range | default | meaning |\n|---|---|---|---|---|\n",
                                    title_of(table, several));
     for (const KeyRow& row : keys) {

@@ -59,6 +59,9 @@ class Session {
     [[nodiscard]] StartOfFrame next_frame(std::uint32_t timestamp_ticks,
                                           bool timestamp_valid = true) noexcept;
 
+    /// The next frame bears the number after this one: that of another image generator goes on here.
+    void count_from(std::uint32_t ig_frame_number) noexcept { ig_frame_number_ = ig_frame_number; }
+
     [[nodiscard]] IgMode mode() const noexcept { return mode_; }
     /// The host's version, else the announced default.
     [[nodiscard]] Version version() const noexcept { return version_; }

@@ -78,6 +78,13 @@ class Adaptation {
 
     [[nodiscard]] double luminance_cd_m2() const noexcept { return luminance_cd_m2_; }
 
+    /// All that it knows, one value after the other: for who takes it elsewhere.
+    template <class Visit>
+    void visit(Visit&& visit) {
+        visit(started_), visit(resumed_), visit(luminance_cd_m2_), visit(log_cones_), visit(log_rods_),
+            visit(time_s_);
+    }
+
     static constexpr double kJump_s = 2.0;
 
   private:

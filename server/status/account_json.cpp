@@ -5,6 +5,7 @@
 #include "server/report_json.h"
 #include "server/status/account.h"
 #include "server/status/from_snapshot.h"
+#include "server/status/rig_pages.h"
 
 namespace skyig::server::status {
 
@@ -195,6 +196,7 @@ std::string to_json(const Account& account) {
     json["authority"] = authority_json(account);
     json["channels"] = channels_json(account);
     json["plan"] = plan_json(account.snapshot);
+    json["rig"] = rig_json(account.facts, account.snapshot.rig);
     json["recorder"] = recorder_json(account.recorder);
     json["status_port"] = {{"connections", account.port.connections},
                            {"answered", account.port.answered},

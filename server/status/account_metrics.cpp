@@ -3,6 +3,7 @@
 #include "server/status/account.h"
 #include "server/status/from_snapshot.h"
 #include "server/status/metrics_text.h"
+#include "server/status/rig_pages.h"
 
 namespace skyig::server::status {
 
@@ -226,6 +227,7 @@ std::string to_metrics(const Account& account) {
     add_authority(out, account);
     add_edges(out, account);
     add_world(out, account);
+    add_rig(out, account.snapshot.rig);
     return std::move(out).take();
 }
 

@@ -1,11 +1,10 @@
 // How the drawing of one channel goes.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <string_view>
+
+#include "server/status/fixed_text.h"
 
 namespace skyig::server::status {
 
@@ -17,16 +16,12 @@ struct ChannelHealth {
     /// How often it could not.
     std::uint64_t failures = 0;
 
-    void set_reason(std::string_view text) noexcept {
-        length_ = std::min(text.size(), reason_.size());
-        std::copy_n(text.begin(), length_, reason_.begin());
-    }
+    void set_reason(std::string_view text) noexcept { reason_.set(text); }
     /// Of the last failure; empty before the first.
-    [[nodiscard]] std::string_view reason() const noexcept { return {reason_.data(), length_}; }
+    [[nodiscard]] std::string_view reason() const noexcept { return reason_.get(); }
 
   private:
-    std::array<char, 120> reason_{};
-    std::size_t length_ = 0;
+    FixedText<120> reason_;
 };
 
 }  // namespace skyig::server::status

@@ -21,8 +21,10 @@
 #include "protocol/transport/udp.h"
 #include "server/ephemeris/time.h"
 #include "server/status/channel_health.h"
+#include "server/status/delay.h"
 #include "server/status/frame_record.h"
 #include "server/status/pass_state.h"
+#include "server/status/rig_state.h"
 #include "server/world/state.h"
 
 namespace skyig::server::status {
@@ -33,13 +35,6 @@ inline constexpr std::size_t kMostSources = config::kMaxSources + 1;
 struct Times {
     double median_ms = 0.0;
     double p95_ms = 0.0;
-    double largest_ms = 0.0;
-};
-
-struct Delay {
-    std::uint64_t count = 0;
-    double median_ms = 0.0;
-    double p99_ms = 0.0;
     double largest_ms = 0.0;
 };
 
@@ -135,6 +130,7 @@ struct Snapshot {
     Thinning thinning;
     std::size_t gl_objects = 0;
     SettingsState settings;
+    RigState rig;
 
     WorldState world;
     std::array<PassState, kMostPasses> passes{};
@@ -187,6 +183,8 @@ struct Facts {
     std::vector<std::string> thinning_order;
     /// In the order of the settings.
     std::vector<std::string> channels;
+    /// Of each channel the machine that draws it; empty where this machine is alone.
+    std::vector<std::string> channel_nodes;
     /// The host first.
     std::vector<SourceFacts> sources;
     /// Of the settings: what layers' heights count from there, and how long a change of weather takes.

@@ -23,6 +23,9 @@ class UtcClock {
 
     void advance(double step_s) noexcept;
 
+    /// It is then now; whether it runs stays.
+    void stand_at(const ephemeris::UtcClockTime& utc) noexcept { now_ = utc; }
+
     /// Stops or goes on where it stands.
     void run(bool running) noexcept { running_ = running; }
 

@@ -339,6 +339,13 @@ void World::advance(double step_s) {
     counters_.ig_message_lost = outbox_.messages.left_out();
 }
 
+void World::stand_at(const ephemeris::UtcClockTime& utc, double time_s,
+                     std::uint32_t ig_frame_number) noexcept {
+    clock_.stand_at(utc);
+    time_s_ = time_s;
+    session_.count_from(ig_frame_number);
+}
+
 void World::supervise(double step_s) {
     authority_.advance(step_s, [this](const LinkChange& change) {
         if (change.to != LinkState::kLost) return;

@@ -82,6 +82,10 @@ class World {
     /// Moves time on by `step_s` >= 0: clock, link supervision.
     void advance(double step_s);
 
+    /// It is this time here, whatever the steps so far: that of another image generator, whose frame bore
+    /// that number.
+    void stand_at(const ephemeris::UtcClockTime& utc, double time_s, std::uint32_t ig_frame_number) noexcept;
+
     /// From here on the ownship is where it will be so much later than the frame begins, as far as its motion
     /// is known; 0 at first. For the time that a frame takes until it is seen.
     void look_ahead(double ahead_s) noexcept { ahead_s_ = ahead_s; }

@@ -11,6 +11,7 @@
 #include "clients/skyig/status/http_get.h"
 #include "clients/skyig/status/page.h"
 #include "server/status/from_snapshot.h"
+#include "server/status/http_server.h"
 #include "server/status/status_port.h"
 #include "tests/server/status/example.h"
 
@@ -87,12 +88,20 @@ TEST(StatusPage, ShowsWhatHasGrownSinceTheLast) {
     EXPECT_THAT(page, HasSubstr("648 (+49) arrivals"));
 }
 
+TEST(StatusPage, TellsOfARigInALine) {
+    pages::Snapshot snapshot = pages::tests::example_snapshot();
+    EXPECT_THAT(status::page_text(example(snapshot), nullptr), Not(HasSubstr("rig ")));
+    snapshot.rig = pages::tests::example_rig();
+    EXPECT_THAT(status::page_text(example(snapshot), nullptr),
+                HasSubstr("rig             main leads, frame 600; nodes: 1 ready, 1 refused\n"));
+}
+
 class StatusVerb : public ::testing::Test {
   protected:
     StatusVerb() {
         config::Status settings;
         settings.listen.port = 0;
-        auto opened = pages::StatusPort::open(settings, pages::tests::example_facts(), *exchange_, clock_,
+        auto opened = pages::StatusPort::open(settings, pages::tests::rig_facts(), *exchange_, clock_,
                                               [] { return pages::Edges{}; });
         EXPECT_TRUE(opened);
         port_ = std::move(opened).value();
@@ -134,6 +143,51 @@ TEST_F(StatusVerb, WatchesAndTellsWhenNobodyAnswersAnyMore) {
     options_.json = false;
     EXPECT_EQ(run(2), 0) << err_;
     EXPECT_THAT(out_, HasSubstr("\n\nskyigd "));
+}
+
+TEST_F(StatusVerb, PrintsNothingThatIsNoStatus) {
+    for (const char* body : {"<html>welcome</html>", "[]", "{}", "{\"frames\": "}) {
+        const auto other = pages::HttpServer::open({}, clock_, [body](std::string_view, const auto&) {
+            return pages::HttpAnswer{200, "text/html", std::make_shared<const std::string>(body)};
+        });
+        ASSERT_TRUE(other);
+        options_.url = fmt::format("http://127.0.0.1:{}", (*other)->local().port);
+        for (const bool json : {true, false}) {
+            options_.json = json;
+            EXPECT_EQ(run(), 1) << body;
+            EXPECT_EQ(out_, "");
+            EXPECT_EQ(err_, fmt::format("skyig status: what answers at {} is not skyigd\n", options_.url));
+        }
+    }
+}
+
+TEST_F(StatusVerb, TellsOnlyTheRigOrThatThereIsNone) {
+    options_.rig = true;
+    EXPECT_EQ(run(), 1);
+    EXPECT_EQ(out_, "");
+    EXPECT_EQ(err_, fmt::format("skyig status: {} draws alone: its settings have no [rig]\n", options_.url));
+
+    exchange_->draft() = pages::tests::example_snapshot();
+    exchange_->draft().rig = pages::tests::example_rig();
+    exchange_->publish();
+    // A page is made anew at most ten times a second.
+    for (int i = 0; i < 100 && run() != 0; ++i)
+        clock_.sleep_until_ns(clock_.monotonic_ns() + 20'000'000);
+    EXPECT_EQ(
+        out_,
+        "main leads, frame 600; draws left\n"
+        "wait for nodes: median 0.40 ms, p99 1.75 ms, largest 10.00 ms\n"
+        "counts: incomplete 3, unsealed 12\n"
+        "\n"
+        "node  channels  state    frame  lag  frame ms  wait ms  left out  repeats  late  lost      heard\n"
+        "side  right     ready      599    1      7.25     0.50         3        0     0     0  0.0 s ago\n"
+        "rear  -         refused      0    0      0.00     0.00         0        0     0     0  0.1 s ago\n"
+        "\n"
+        "side: skyigd 1.2.3, 4.5 llvmpipe\n"
+        "rear: skyigd 1.2.3; REFUSED: settings 1, the leader's are 2\n");
+    options_.json = true;
+    EXPECT_EQ(run(), 0) << err_;
+    EXPECT_EQ(Json::parse(out_).at("leader"), "main");
 }
 
 TEST_F(StatusVerb, SaysInOneLineThatNobodyAnswers) {

@@ -43,17 +43,18 @@ std::vector<FrameTime> read_frame_times(const std::string& path) {
     std::istringstream in(read_text(path));
     std::string line;
     std::getline(in, line);
-    EXPECT_EQ(line,
-              "frame,utc_ns,slots,late,arrivals,input_us,shared_us,left_us,centre_us,right_us,frame_us");
+    EXPECT_EQ(
+        line,
+        "frame,utc_ns,slots,late,arrivals,input_us,shared_us,left_us,centre_us,right_us,frame_us,shown_ns");
     std::vector<FrameTime> frames;
     while (std::getline(in, line)) {
         std::vector<std::string> cells;
         std::istringstream row(line);
         for (std::string cell; std::getline(row, cell, ',');)
             cells.push_back(cell);
-        if (cells.size() == 11)
+        if (cells.size() == 12)
             frames.push_back({std::stoll(cells[1]), std::stod(cells[5]), std::stod(cells[10])});
-        EXPECT_EQ(cells.size(), 11U) << line;
+        EXPECT_EQ(cells.size(), 12U) << line;
     }
     return frames;
 }

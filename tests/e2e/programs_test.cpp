@@ -138,7 +138,7 @@ TEST(Programs, FileOfEarthOrientationIsReadAtStartUp) {
 }
 
 TEST(Skyigd, ExampleSettingsAreGood) {
-    for (const char* name : {"one-channel.toml", "three-channels.toml"}) {
+    for (const char* name : {"one-channel.toml", "three-channels.toml", "two-machines.toml"}) {
         const Finished check =
             skyigd({"--config", std::string(SKYIG_SOURCE_DIR "/config/examples/") + name, "--check"});
         EXPECT_EQ(check.status, 0) << check.err;

@@ -42,8 +42,9 @@ TestSocket::~TestSocket() {
     close(descriptor_);
 }
 
-void TestSocket::send(std::uint16_t to_port, std::span<const std::byte> bytes) const {
-    const sockaddr_in address = loopback(to_port);
+void TestSocket::send(std::uint16_t to_port, std::span<const std::byte> bytes, std::uint32_t to) const {
+    sockaddr_in address = loopback(to_port);
+    address.sin_addr.s_addr = htonl(to);
     const ssize_t sent =
         sendto(descriptor_, bytes.data(), bytes.size(), 0, generic(address), sizeof(address));
     if (sent != static_cast<ssize_t>(bytes.size())) throw std::runtime_error("test datagram not sent");

@@ -23,7 +23,7 @@ class TestSocket {
 
     [[nodiscard]] std::uint16_t port() const { return port_; }
     [[nodiscard]] int descriptor() const { return descriptor_; }
-    void send(std::uint16_t to_port, std::span<const std::byte> bytes) const;
+    void send(std::uint16_t to_port, std::span<const std::byte> bytes, std::uint32_t to = 0x7F000001) const;
 
   private:
     int descriptor_ = -1;

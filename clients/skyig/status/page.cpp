@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "clients/skyig/status/rig_page.h"
+
 namespace skyig::clients::status {
 
 namespace {
@@ -79,6 +81,7 @@ void add_program(Page& page, const Json& now) {
               duration_text(now.at("uptime_s").get<double>()), text_of(now.at("started_utc")));
     page.line("health", "{}{}", health.at("ok").get<bool>() ? "" : "NOT GOOD: ", text_of(health.at("text")));
     page.line("OpenGL", "{}", text_of(now.at("renderer")));
+    if (now.contains("rig") && !now.at("rig").is_null()) page.line("rig", "{}", rig_line(now.at("rig")));
 }
 
 void add_times(Page& page, const std::string& name, const Json& times) {

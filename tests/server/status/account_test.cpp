@@ -41,6 +41,14 @@ struct Example {
     }
 };
 
+/// The same as the leader of a rig.
+Example rig_example() {
+    Example example;
+    example.facts = tests::rig_facts();
+    example.snapshot.rig = tests::example_rig();
+    return example;
+}
+
 /// Lines of one sample: name with labels, then the number.
 std::map<std::string, double> samples_of(const std::string& text) {
     static const std::regex kSample(
@@ -138,8 +146,46 @@ TEST(Account, JsonTellsFramesWorldPlanAndRecorder) {
     EXPECT_EQ(json.at("uptime_s"), 12.5);
 }
 
+TEST(Account, JsonTellsTheRigAndNothingOfItOnAMachineAlone) {
+    EXPECT_TRUE(Json::parse(to_json(Example().account())).at("rig").is_null());
+    const Json rig = Json::parse(to_json(rig_example().account())).at("rig");
+    EXPECT_EQ(rig.at("name"), "main");
+    EXPECT_EQ(rig.at("role"), "leads");
+    EXPECT_EQ(rig.at("channels"), (Json{"left"}));
+    EXPECT_EQ(rig.at("wait").at("p99_ms"), 1.75);
+    EXPECT_EQ(rig.at("counts").at("unsealed"), 12);
+    EXPECT_EQ(rig.at("counts").at("strangers"), 0);
+    ASSERT_EQ(rig.at("nodes").size(), 2U);
+    const Json& side = rig.at("nodes").at(0);
+    EXPECT_EQ(side.at("channels"), (Json{"right"}));
+    EXPECT_EQ(side.at("state"), "ready");
+    EXPECT_EQ(side.at("lag"), 1);
+    EXPECT_EQ(side.at("left_out"), 3);
+    EXPECT_EQ(side.at("gl"), "4.5 llvmpipe");
+    EXPECT_EQ(side.at("why"), "");
+    const Json& rear = rig.at("nodes").at(1);
+    EXPECT_EQ(rear.at("state"), "refused");
+    EXPECT_EQ(rear.at("why"), "settings 1, the leader's are 2");
+    EXPECT_TRUE(rear.at("channels").empty());
+}
+
+TEST(Account, MetricsTellTheRigAndNothingOfItOnAMachineAlone) {
+    for (const auto& [family, type] : families_of(to_metrics(Example().account())))
+        EXPECT_FALSE(family.starts_with("skyig_rig")) << family;
+    const auto samples = samples_of(to_metrics(rig_example().account()));
+    EXPECT_EQ(samples.at(R"(skyig_rig_role{role="leads"})"), 1.0);
+    EXPECT_EQ(samples.at(R"(skyig_rig_role{role="follows"})"), 0.0);
+    EXPECT_EQ(samples.at(R"(skyig_rig_wait_seconds{statistic="p99"})"), 1.75e-3);
+    EXPECT_EQ(samples.at(R"(skyig_rig_counts_total{count="incomplete"})"), 3.0);
+    EXPECT_EQ(samples.at(R"(skyig_rig_node_state{node="rear",state="refused"})"), 1.0);
+    EXPECT_EQ(samples.at(R"(skyig_rig_node_state{node="rear",state="ready"})"), 0.0);
+    EXPECT_EQ(samples.at(R"(skyig_rig_node_lag_frames{node="side"})"), 1.0);
+    EXPECT_EQ(samples.at(R"(skyig_rig_node_frame_seconds{node="side"})"), 7.25e-3);
+    EXPECT_EQ(samples.at(R"(skyig_rig_node_counts_total{node="side",count="left_out"})"), 3.0);
+}
+
 TEST(Account, MetricsAreWellFormedAndCountersEndInTotal) {
-    const std::string text = to_metrics(Example().account());
+    const std::string text = to_metrics(rig_example().account());
     const auto samples = samples_of(text);
     EXPECT_EQ(samples.at("skyig_frames_total"), 600.0);
     EXPECT_EQ(samples.at(R"(skyig_packets_total{packet="ig_control"})"), 599.0);
@@ -181,7 +227,7 @@ std::string operations_page() {
 
 TEST(Account, EveryMetricAndEveryKeyStandsInTheDocs) {
     const std::string page = operations_page();
-    const auto families = families_of(to_metrics(Example().account()));
+    const auto families = families_of(to_metrics(rig_example().account()));
     for (const auto& [family, type] : families)
         EXPECT_THAT(page, HasSubstr("`" + family + "`"));
     const Json json = Json::parse(to_json(Example().account()));
@@ -192,6 +238,10 @@ TEST(Account, EveryMetricAndEveryKeyStandsInTheDocs) {
     const std::regex named(R"(\n\| `(skyig_\w+)`)");
     for (std::sregex_iterator it(page.begin(), page.end(), named), end; it != end; ++it)
         EXPECT_TRUE(families.contains((*it)[1])) << (*it)[1] << " is documented and not told";
+    for (const std::string_view name : kRigCountNames)
+        EXPECT_THAT(page, HasSubstr("`" + std::string(name) + "`"));
+    for (const std::string_view name : kRigNodeStateNames)
+        EXPECT_THAT(page, HasSubstr("`" + std::string(name) + "`"));
     std::printf("  %zu metrics, %zu keys\n", families.size(), json.size());
 }
 

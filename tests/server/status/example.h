@@ -69,6 +69,44 @@ inline Snapshot example_snapshot() {
     return snapshot;
 }
 
+/// The leader of two others, of which one has other settings.
+inline RigState example_rig() {
+    RigState rig;
+    rig.role = RigRole::kLeads;
+    rig.self.set("main");
+    rig.leader.set("main");
+    rig.frame = 600;
+    rig.wait = {600, 0.4, 1.75, 10.0};
+    rig[RigCount::kIncomplete] = 3;
+    rig[RigCount::kUnsealed] = 12;
+    rig.node_count = 2;
+    RigNode& ready = rig.nodes[0];
+    ready.name.set("side");
+    ready.state = RigNodeState::kReady;
+    ready.build.set("skyigd 1.2.3");
+    ready.gl.set("4.5 llvmpipe");
+    ready.frame = 599;
+    ready.lag = 1;
+    ready.frame_ms = 7.25;
+    ready.waited_ms = 0.5;
+    ready.left_out = 3;
+    ready.silent_s = 0.02;
+    RigNode& refused = rig.nodes[1];
+    refused.name.set("rear");
+    refused.state = RigNodeState::kRefused;
+    refused.why.set("settings 1, the leader's are 2");
+    refused.build.set("skyigd 1.2.3");
+    refused.silent_s = 0.1;
+    return rig;
+}
+
+/// Their channels: "left" is drawn by the leader, "right" by the node that is ready.
+inline Facts rig_facts() {
+    Facts facts = example_facts();
+    facts.channel_nodes = {"main", "side"};
+    return facts;
+}
+
 inline RunReport with_bus(RunReport report) {
     report.buses = {{"cockpit", "can0", "up", {{"received", 1000}, {"fd_frames", 2}}}};
     return report;
