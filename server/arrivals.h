@@ -1,4 +1,4 @@
-// When what one frame has taken came, by the kernel's stamps.
+// When what one frame has taken came, by the kernel's stamps, freed from steps of the clock.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ class Arrivals {
     };
 
     void clear() noexcept { count_ = host_count_ = 0; }
-    /// POSIX nanoseconds.
+    /// Of Clock::steady_utc_ns().
     void add(std::int64_t arrival_ns) noexcept {
         if (count_ < kMost) times_ns_[count_++] = arrival_ns;
     }

@@ -16,6 +16,12 @@ std::int64_t read_ns(clockid_t clock) noexcept {
 
 }  // namespace
 
+SystemClock::SystemClock() noexcept : steady_offset_ns_(read_ns(CLOCK_REALTIME) - read_ns(CLOCK_MONOTONIC)) {}
+
+std::int64_t SystemClock::steady_utc_ns() const noexcept {
+    return monotonic_ns() + steady_offset_ns_;
+}
+
 std::int64_t SystemClock::monotonic_ns() const noexcept {
     return read_ns(CLOCK_MONOTONIC);
 }

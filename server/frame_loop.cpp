@@ -75,7 +75,7 @@ bool FrameLoop::run_frame() {
     const FramePacer::Slot slot = *next;
     const std::int64_t start_ns = parts_.clock.monotonic_ns();
     if (first_start_ns_ == 0) first_start_ns_ = start_ns;
-    const std::int64_t utc_ns = parts_.clock.utc_ns();
+    const std::int64_t utc_ns = parts_.clock.steady_utc_ns();
     frame_number_ = slot.told_number != 0 ? slot.told_number : frame_number_ + 1;
 
     thin(slot);
@@ -97,7 +97,7 @@ bool FrameLoop::run_frame() {
     tell_monitors();
     times.display_ns = stopwatch.lap_ns();
     const std::int64_t shown_ns = parts_.painter.showed() ? start_ns + times.duration_ns() : 0;
-    if (parts_.wire.live()) delays_.shown(parts_.clock.utc_ns(), inbox_.frame_arrivals());
+    if (parts_.wire.live()) delays_.shown(parts_.clock.steady_utc_ns(), inbox_.frame_arrivals());
     hand_out(scene);
     times.output_ns = stopwatch.lap_ns();
     if (on_processor_) times.processor_ns = parts_.clock.processor_ns() - processor_before_ns;
@@ -185,7 +185,7 @@ void FrameLoop::draw(const render::Scene& scene, Stopwatch& stopwatch, status::F
         times.channels_ns += took_ns;
         // What is crossed out shows no message.
         if (!live || !parts_.painter.draws(channel) || parts_.painter.health(channel).failed) continue;
-        last_utc_ns = parts_.clock.utc_ns();
+        last_utc_ns = parts_.clock.steady_utc_ns();
         if (first_utc_ns == 0) first_utc_ns = last_utc_ns;
         delays_.finished(channel, last_utc_ns, inbox_.frame_arrivals());
     }

@@ -33,7 +33,7 @@ transport::Endpoint endpoint(const config::UdpAddress& address) {
 
 }  // namespace
 
-LiveWire::LiveWire(const config::Config& config, Log& log) : log_(log) {
+LiveWire::LiveWire(const config::Config& config, const Clock& clock, Log& log) : log_(log), stamps_(clock) {
     if (config.host.enabled) add(0, config.host.listen, config.host.allow);
     for (std::size_t i = 0; i < config.sources.size(); ++i) {
         const config::Source& source = config.sources[i];
@@ -96,11 +96,14 @@ std::optional<std::size_t> LiveWire::owner(const Socket& socket, const transport
 }
 
 void LiveWire::drain(ArrivalTaker& taker) {
+    stamps_.look();
+    tell_steps();
     for (Socket& socket : sockets_) {
         socket.receiver->drain(
             [this, &socket, &taker](const transport::Datagram& datagram) {
                 if (const auto source = owner(socket, datagram.from)) {
-                    taker.take(*source, datagram);
+                    taker.take(*source,
+                               {datagram.from, stamps_.steady_ns(datagram.arrival_ns), datagram.bytes});
                 } else {
                     ++not_allowed_;
                 }
@@ -108,10 +111,23 @@ void LiveWire::drain(ArrivalTaker& taker) {
             kMostBytesAFrame);
     }
     for (Bus& bus : buses_) {
-        bus.receiver.drain([&bus, &taker](const protocol::CanFrame& frame) { taker.take(bus.source, frame); },
-                           kMostBusFramesAFrame);
+        bus.receiver.drain(
+            [this, &bus, &taker](protocol::CanFrame frame) {
+                frame.received_ns = stamps_.steady_ns(frame.received_ns);
+                taker.take(bus.source, frame);
+            },
+            kMostBusFramesAFrame);
         tell(bus);
     }
+}
+
+void LiveWire::tell_steps() {
+    if (stamps_.steps() == told_steps_) return;
+    told_steps_ = stamps_.steps();
+    log_.limited(
+        "clock set", 60.0, Severity::kNotice,
+        "the system's clock was set by {:+.3f} s: world time, frames and delays go on as if it had not been",
+        static_cast<double>(stamps_.last_step_ns()) * 1e-9);
 }
 
 /// Down and up again, or gone and back, between two looks is told too: the bus was silent meanwhile.

@@ -8,6 +8,7 @@
 
 #include "config/config.h"
 #include "protocol/transport/can_socket.h"
+#include "server/kernel_stamps.h"
 #include "server/log.h"
 #include "server/report.h"
 #include "server/wire.h"
@@ -19,8 +20,9 @@ namespace skyig::server {
 /// drain(), so by the frame loop's thread. Without a bus in the settings nothing of CAN is touched.
 class LiveWire final : public Wire {
   public:
-    /// `log` must outlive the wire. \throws std::runtime_error with one line when a socket cannot be had
-    LiveWire(const config::Config& config, Log& log);
+    /// Clock and log must outlive the wire; arrivals are handed on as of the clock's steady UTC. \throws
+    /// std::runtime_error with one line when a socket cannot be had
+    LiveWire(const config::Config& config, const Clock& clock, Log& log);
 
     void open_frame(const FrameMark& /*mark*/, std::span<const std::byte> /*message*/) override {}
     void drain(ArrivalTaker& taker) override;
@@ -62,6 +64,7 @@ class LiveWire final : public Wire {
     };
 
     void add_bus(std::size_t source, const config::Source& settings);
+    void tell_steps();
     void tell(Bus& bus);
     void tell_losses(const Bus& bus, const protocol::transport::CanCounters& now);
     void add(std::size_t source, const config::UdpAddress& listen,
@@ -73,6 +76,8 @@ class LiveWire final : public Wire {
                                                           const protocol::transport::Endpoint& from) noexcept;
 
     Log& log_;
+    KernelStamps stamps_;
+    std::uint64_t told_steps_ = 0;
     std::vector<Socket> sockets_;
     std::vector<Bus> buses_;
     /// Datagrams of an allowed address from a port that no source allows.

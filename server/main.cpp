@@ -16,6 +16,7 @@
 #include "server/daemon.h"
 #include "server/from_config.h"
 #include "server/rig_part.h"
+#include "server/standard_output.h"
 #include "server/start_weather/start_weather.h"
 
 namespace {
@@ -150,7 +151,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        return run(argc, argv);
+        return skyig::server::finish_standard_output("skyigd", run(argc, argv));
     } catch (const std::exception& error) {
         std::fprintf(stderr, "skyigd: %s\n", error.what());
         return kFailed;

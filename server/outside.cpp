@@ -54,7 +54,7 @@ Outside::Outside(const DaemonOptions& options, const config::Config& config, Clo
         replay_pace_.emplace(*replay_, replay_clock, wall, config.daemon.rate_hz, options.replay_speed);
         return;
     }
-    if (hears) live_.emplace(config, log);
+    if (hears) live_.emplace(config, wall, log);
     const bool wanted = config.daemon.pacing == config::Pacing::kDisplay;
     if (wanted && !options.headless) {
         live_pace_ = std::make_unique<DisplayPace>(wall, config.daemon.rate_hz);

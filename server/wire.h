@@ -34,7 +34,7 @@ struct FrameMark {
     std::uint64_t slots = 0;
     /// What it leaves out, by the numbers of render::Thin.
     std::uint64_t thinned = 0;
-    /// UTC, POSIX nanoseconds.
+    /// Clock::steady_utc_ns().
     std::int64_t utc_ns = 0;
 };
 

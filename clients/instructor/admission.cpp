@@ -40,9 +40,10 @@ std::string_view query_value(std::string_view query, std::string_view key) noexc
 
 Refusal check_host(const HttpRequest& request, const AdmissionRules& rules) {
     if (!rules.loopback && !rules.token.empty()) return Refusal::kNone;
-    const bool ours = !request.host.empty() &&
-                      (server::status::is_local_name(request.host) ||
-                       std::find(rules.names.begin(), rules.names.end(), request.host) != rules.names.end());
+    // Browsers write names small, however they were given here.
+    const auto named = [&](const std::string& name) { return server::status::same_word(name, request.host); };
+    const bool ours = !request.host.empty() && (server::status::is_local_name(request.host) ||
+                                                std::any_of(rules.names.begin(), rules.names.end(), named));
     return ours ? Refusal::kNone : Refusal::kHost;
 }
 

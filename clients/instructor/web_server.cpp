@@ -1,5 +1,7 @@
 #include "clients/instructor/web_server.h"
 
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -64,8 +66,8 @@ WebServer::WebServer(transport::TcpListener listener, const WebOptions& options,
     : listener_(std::move(listener)), options_(options), clock_(clock), handlers_(std::move(handlers)) {
     constexpr transport::Ipv4 kLoopbackNet = 127;
     rules_ = {listener_.local.address >> 24U == kLoopbackNet, options_.token, options_.names};
-    clients_.reserve(options_.connections);
-    events_.reserve(options_.connections + 1);
+    clients_.reserve(options_.sockets + options_.connections);
+    events_.reserve(options_.sockets + options_.connections + 1);
 }
 
 WebServer::~WebServer() {
@@ -109,16 +111,35 @@ void WebServer::take_new() {
         transport::FileDescriptor socket = transport::accept_tcp(listener_);
         if (!socket) return;
         ++counts_.connections;
-        if (clients_.size() >= options_.connections) {
-            ++counts_.refused_full;
-            continue;
-        }
+        make_room();
         ::setsockopt(socket.get(), SOL_SOCKET, SO_SNDBUF, &kSendBuffer_bytes, sizeof(kSendBuffer_bytes));
+        // A machine that is gone without a word acknowledges nothing: the system itself ends that connection.
+        const auto limit_ms = static_cast<unsigned>(options_.time_limit.count());
+        ::setsockopt(socket.get(), IPPROTO_TCP, TCP_USER_TIMEOUT, &limit_ms, sizeof(limit_ms));
         auto client = std::make_unique<Client>(options_.most_message_bytes);
         client->socket = std::move(socket);
         client->since_ns = clock_.monotonic_ns();
         clients_.push_back(std::move(client));
+        // What it asks is mostly there already, and is heard before it could have to give way.
+        receive(*clients_.back());
     }
+}
+
+/// For one more connection. The oldest stands first.
+void WebServer::make_room() {
+    const auto is_socket = [](const auto& client) { return client->state == Client::State::kSocket; };
+    const auto others = clients_.size() - open_sockets();
+    if (others < options_.connections) return;
+    clients_.erase(std::find_if_not(clients_.begin(), clients_.end(), is_socket));
+    ++counts_.gave_way;
+}
+
+/// The connection failed or was ended by its client.
+/// \param fault  what the system said, 0: nothing
+void WebServer::lose(Client& client, int fault) {
+    const bool said = fault == 0 || fault == ECONNRESET || fault == EPIPE;
+    if (!said && client.state == Client::State::kSocket) ++counts_.ended_for_slow;
+    client.socket = {};
 }
 
 void WebServer::receive(Client& client) {
@@ -126,7 +147,7 @@ void WebServer::receive(Client& client) {
     const ssize_t got = ::recv(client.socket.get(), buffer.data(), buffer.size(), 0);
     if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;
     if (got <= 0) {
-        client.socket = {};
+        lose(client, got == 0 ? 0 : errno);
         return;
     }
     const std::string_view bytes(buffer.data(), static_cast<std::size_t>(got));
@@ -200,6 +221,11 @@ void WebServer::upgrade(Client& client, const HttpRequest& request) {
     }
     if (const Refusal refusal = check_upgrade(request, rules_); refusal != Refusal::kNone) {
         refuse(client, refusal);
+        return;
+    }
+    if (open_sockets() >= options_.sockets) {
+        ++counts_.refused_full;
+        answer(client, server::status::line_answer(503, "as many pages are open as may be"), true);
         return;
     }
     ++counts_.sockets;
@@ -305,7 +331,7 @@ void WebServer::send(Client& client) {
                                     frame.size() - client.sent_of_first, MSG_NOSIGNAL);
         if (gone < 0 && (errno == EAGAIN || errno == EINTR)) return;
         if (gone < 0) {
-            client.socket = {};
+            lose(client, errno);
             return;
         }
         client.stuck_since_ns = clock_.monotonic_ns();

@@ -27,6 +27,10 @@ struct WebOptions {
     protocol::transport::Endpoint listen{0x7F000001, 8080};
     std::string token;
     std::vector<std::string> names;
+    /// Pages at once, a WebSocket each; one more is told so.
+    std::size_t sockets = 64;
+    /// Connections that are no WebSocket, or not yet; for one more the oldest of them gives way, so that
+    /// nobody can keep pages out by connecting and asking nothing.
     std::size_t connections = 32;
     /// Longer messages end the connection.
     std::size_t most_message_bytes = std::size_t{64} << 10U;
@@ -34,7 +38,7 @@ struct WebOptions {
     /// whoever has ten times as many thrown away is ended.
     double messages_per_s = 50.0;
     /// For a page over HTTP, from the connection on; and how long what was sent over a WebSocket may wait for
-    /// a client that does not read.
+    /// a client that does not read, or whose machine is gone without a word.
     std::chrono::milliseconds time_limit{5000};
     /// What may wait to be sent to one client.
     std::size_t most_waiting_bytes = std::size_t{1} << 20U;
@@ -46,7 +50,8 @@ struct WebCounts {
     std::uint64_t pages = 0;           ///< answered over HTTP
     std::uint64_t sockets = 0;         ///< WebSockets opened
     std::uint64_t messages = 0;        ///< taken
-    std::uint64_t refused_full = 0;    ///< connections beyond the most
+    std::uint64_t refused_full = 0;    ///< WebSockets beyond the most
+    std::uint64_t gave_way = 0;        ///< connections without a WebSocket that gave way to a newer one
     std::uint64_t refused_bad = 0;     ///< no HTTP, another method, no such page, a wrong handshake
     std::uint64_t refused_host = 0;    ///< another name in Host
     std::uint64_t refused_origin = 0;  ///< a page from elsewhere, or none
@@ -55,7 +60,7 @@ struct WebCounts {
     std::uint64_t not_frames = 0;      ///< ended for what is no text in frames
     std::uint64_t rate_limited = 0;    ///< messages thrown away
     std::uint64_t ended_for_rate = 0;  ///< connections ended for them
-    std::uint64_t ended_for_slow = 0;  ///< connections ended that do not read
+    std::uint64_t ended_for_slow = 0;  ///< connections ended that do not read, or have gone without a word
     std::uint64_t timed_out = 0;       ///< pages that were not asked for, or not read, in time
     std::uint64_t skipped = 0;         ///< pictures and updates left out for who reads slowly
 };
@@ -70,6 +75,7 @@ inline constexpr std::array kWebCountNames{
     NamedWebCount{"sockets", &WebCounts::sockets},
     NamedWebCount{"messages", &WebCounts::messages},
     NamedWebCount{"refused_full", &WebCounts::refused_full},
+    NamedWebCount{"gave_way", &WebCounts::gave_way},
     NamedWebCount{"refused_bad", &WebCounts::refused_bad},
     NamedWebCount{"refused_host", &WebCounts::refused_host},
     NamedWebCount{"refused_origin", &WebCounts::refused_origin},
@@ -125,7 +131,9 @@ class WebServer {
               const server::Clock& clock, Handlers handlers);
     void watch();
     void take_new();
+    void make_room();
     void receive(Client& client);
+    void lose(Client& client, int fault);
     void read_head(Client& client);
     void upgrade(Client& client, const server::status::HttpRequest& request);
     void answer(Client& client, const server::status::HttpAnswer& answer, bool with_body);

@@ -17,6 +17,7 @@
 #include "protocol/transport/udp.h"
 #include "server/clock.h"
 #include "server/frame_pacer.h"
+#include "server/kernel_stamps.h"
 #include "server/stop_signal.h"
 
 namespace skyig::clients {
@@ -77,6 +78,7 @@ class HostRun {
     HostRun(const HostOptions& options, server::Clock& clock)
         : options_(options),
           clock_(clock),
+          stamps_(clock),
           flight_(open_flight(options.flight_path)),
           start_s_(start_of(options, flight_)),
           duration_s_(options.duration_s.value_or(flight_.last_time_s() - start_s_)),
@@ -118,17 +120,19 @@ class HostRun {
             if (!flying_) check_patience();
         }
         const auto bytes = messages_.next(flight_.at(start_s_ + flown_s_), flown_s_, clock_.monotonic_ns());
-        const std::int64_t sent_ns = clock_.utc_ns();
+        const std::int64_t sent_ns = clock_.steady_utc_ns();
         // What the system does not take shows as a missing answer.
         (void)sender_.send(to_, bytes);
         statistics_.sent(messages_.frame_number(), sent_ns);
     }
 
     void take_answers() {
+        stamps_.look();
         receiver_.drain([this](const transport::Datagram& datagram) {
+            const std::int64_t arrival_ns = stamps_.steady_ns(datagram.arrival_ns);
             const auto on_start_of_frame = [&](const cigi::StartOfFrame& start_of_frame,
                                                const cigi::PacketInfo& info) {
-                statistics_.received(start_of_frame, info.version, datagram.arrival_ns);
+                statistics_.received(start_of_frame, info.version, arrival_ns);
                 messages_.answered(start_of_frame);
                 heard_at_ns_ = clock_.monotonic_ns();
             };
@@ -183,6 +187,7 @@ class HostRun {
 
     const HostOptions& options_;
     server::Clock& clock_;
+    server::KernelStamps stamps_;
     Flight flight_;
     double start_s_;
     double duration_s_;

@@ -23,6 +23,7 @@
 #include "clients/skyig/sky.h"
 #include "clients/skyig/status.h"
 #include "clients/skyig/tone.h"
+#include "server/standard_output.h"
 
 namespace {
 
@@ -58,7 +59,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        return run(argc, argv);
+        return skyig::server::finish_standard_output("skyig", run(argc, argv));
     } catch (const std::exception& error) {
         std::fprintf(stderr, "skyig: %s\n", error.what());
         return 1;

@@ -16,6 +16,8 @@
 #include "protocol/recording/pcapng_writer.h"
 #include "protocol/transport/can_socket.h"
 #include "protocol/transport/udp.h"
+#include "server/clock.h"
+#include "server/kernel_stamps.h"
 #include "server/stop_signal.h"
 
 namespace skyig::clients {
@@ -74,6 +76,7 @@ class RecordRun {
     RecordRun(const RecordOptions& options, server::Clock& clock)
         : options_(options),
           clock_(clock),
+          stamps_(clock),
           ports_(open_ports(options)),
           buses_(open_buses(options)),
           file_(open_file(options.out_path)),
@@ -147,9 +150,10 @@ class RecordRun {
     void round() {
         arrivals_.clear();
         bytes_.clear();
+        stamps_.look();
         for (transport::UdpReceiver& port : ports_) {
             port.drain([this, to = port.local()](const transport::Datagram& datagram) {
-                arrivals_.push_back({datagram.arrival_ns,
+                arrivals_.push_back({stamps_.steady_ns(datagram.arrival_ns),
                                      false,
                                      datagram.from,
                                      to,
@@ -160,7 +164,8 @@ class RecordRun {
             });
         }
         for (transport::CanReceiver& bus : buses_) {
-            bus.drain([this](const protocol::CanFrame& frame) {
+            bus.drain([this](protocol::CanFrame frame) {
+                frame.received_ns = stamps_.steady_ns(frame.received_ns);
                 arrivals_.push_back({frame.received_ns, true, {}, {}, 0, 0, frame});
             });
         }
@@ -190,6 +195,7 @@ class RecordRun {
     server::StopSignal stop_;
     const RecordOptions& options_;
     server::Clock& clock_;
+    server::KernelStamps stamps_;
     std::vector<transport::UdpReceiver> ports_;
     std::vector<transport::CanReceiver> buses_;
     File file_;

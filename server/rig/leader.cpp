@@ -38,7 +38,9 @@ void Leader::take(const NodeMessage& message) {
     const auto found = std::find_if(members_.begin(), members_.end(), [&message](const Member& member) {
         return member.name == message.from.node;
     });
-    if (found == members_.end() || message.from.session < found->session) {
+    // Of two of one name the later one; a node whose clock has gone back is heard once its former run is
+    // silent.
+    if (found == members_.end() || (found->here && message.from.session < found->session)) {
         ++counts_.strangers;
         return;
     }
@@ -94,9 +96,11 @@ void Leader::tell(const FrameState& state) {
     const std::size_t size = coder_.encode(state, frame_message_.state);
     if (size == 0) {
         ++counts_.too_large;
-        log_.limited("rig too large", kRepeatAfter_s, Severity::kError,
-                     "frame {} holds more than {} bytes of weather and texts: the nodes do not draw it",
-                     frame_message_.frame, kMostStateBytes);
+        log_.limited(
+            "rig too large", kRepeatAfter_s, Severity::kError,
+            "frame {} holds more than {} bytes, or a picture of cloud that the settings did not have at the "
+            "start: the nodes do not draw it",
+            frame_message_.frame, kMostStateBytes);
         return;
     }
     frame_message_.state.resize(size);

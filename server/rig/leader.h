@@ -59,7 +59,8 @@ struct LeaderCounts {
     std::uint64_t frames = 0;
     /// Frames that were shown before all nodes had drawn them.
     std::uint64_t incomplete = 0;
-    /// Scenes that are too large to travel: the nodes kept the picture before.
+    /// Scenes that are too large to travel, or hold a picture that is not known everywhere: the nodes kept
+    /// the picture before.
     std::uint64_t too_large = 0;
     std::uint64_t unsealed = 0;
     std::uint64_t strangers = 0;

@@ -30,6 +30,9 @@ void add_program(MetricsText& out, const Account& account) {
     out.sample({{"version", account.facts.version}, {"renderer", account.facts.renderer}}, 1.0);
     gauge(out, "skyig_uptime_seconds", "Time since the program started.", account.uptime_s);
     gauge(out, "skyig_healthy", "What /healthz says: 1 good, 0 not.", account.health.good ? 1.0 : 0.0);
+    out.family("skyig_settings_read_total", "counter", "Times that settings were read anew, by their fate.");
+    out.sample({{"result", "taken"}}, number(account.snapshot.settings.times_taken));
+    out.sample({{"result", "refused"}}, number(account.snapshot.settings.times_refused));
     gauge(out, "skyig_frame_rate_hertz", "Configured frame rate.", account.facts.rate_hz);
     gauge(out, "skyig_recent_frame_rate_hertz", "Frames a second over the last frames.",
           account.snapshot.record.recent().rate_hz);

@@ -23,11 +23,6 @@ char lower(char c) noexcept {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-bool same_word(std::string_view a, std::string_view b) noexcept {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](char x, char y) { return lower(x) == lower(y); });
-}
-
 std::string_view trimmed(std::string_view text) noexcept {
     const std::size_t first = text.find_first_not_of(" \t");
     if (first == std::string_view::npos) return {};
@@ -94,7 +89,18 @@ std::string_view reason_phrase(int status) noexcept {
     }
 }
 
+/// Host without its port; of an IPv6 address with its brackets.
+std::string_view without_port(std::string_view host) noexcept {
+    const std::size_t bracket = host.starts_with('[') ? host.find(']') : std::string_view::npos;
+    return host.substr(0, bracket == std::string_view::npos ? host.rfind(':') : bracket + 1);
+}
+
 }  // namespace
+
+bool same_word(std::string_view a, std::string_view b) noexcept {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](char x, char y) { return lower(x) == lower(y); });
+}
 
 HttpAnswer line_answer(int status, std::string_view line) {
     HttpAnswer answer;
@@ -117,8 +123,7 @@ Head read_head(std::string_view bytes) noexcept {
         const std::size_t colon = line.find(':');
         if (colon == std::string_view::npos || colon == 0) return {HeadState::kBad, {}};
     }
-    const std::string_view host = field(head.request, "host");
-    head.request.host = host.substr(0, host.rfind(':'));
+    head.request.host = without_port(field(head.request, "host"));
     return head;
 }
 
@@ -134,7 +139,10 @@ std::string_view field(const HttpRequest& request, std::string_view name) noexce
 }
 
 bool is_local_name(std::string_view host) noexcept {
-    return host.empty() || same_word(host, "localhost") || host.find_first_not_of("0123456789.") == host.npos;
+    // No name has brackets: what stands in them is an IPv6 address or nothing that leads anywhere.
+    return host.empty() || same_word(host, "localhost") ||
+           host.find_first_not_of("0123456789.") == host.npos ||
+           (host.starts_with('[') && host.ends_with(']'));
 }
 
 std::string answer_head(const HttpAnswer& answer) {

@@ -21,11 +21,14 @@ struct HttpRequest {
     std::string_view path;
     /// What stands behind a '?', as sent.
     std::string_view query;
-    /// Without port, as sent; empty if there is none.
+    /// Without port, as sent, an IPv6 address in its brackets; empty if there is none.
     std::string_view host;
     /// All header lines.
     std::string_view fields;
 };
+
+/// Alike but for capitals, as header fields and names of machines are compared.
+[[nodiscard]] bool same_word(std::string_view a, std::string_view b) noexcept;
 
 /// The value of a header field, without blanks around it; empty if there is none.
 [[nodiscard]] std::string_view field(const HttpRequest& request, std::string_view name) noexcept;

@@ -38,7 +38,7 @@ enum class RigCount : std::uint8_t {
     kFrames,      ///< told as the leader
     kBytes,       ///< of them
     kIncomplete,  ///< of them, shown before all nodes had drawn them
-    kTooLarge,    ///< of them, not told: more weather and text than travels
+    kTooLarge,    ///< of them, not told: too large, or with a picture that not all know
     kRepeats,     ///< told by a leader, in whose place the picture before stayed
     kLate,        ///< shown after the leader's word
     kMissed,      ///< told by a leader, and never came

@@ -442,5 +442,20 @@ TEST(Skyig, ShotThatCannotBeWrittenIsStatusOne) {
                    "no/such/directory/x.png");
 }
 
+TEST(Programs, SayThatStandardOutputCouldNotTakeEverything) {
+    const Site site;
+    for (const std::string& command :
+         {std::string(SKYIG_PROGRAM) + " rvr --rvr 550 --json",
+          std::string(SKYIG_PROGRAM) + " metar --json 'LSZH 211220Z 24008KT 9999 FEW040 18/09 Q1018'",
+          std::string(SKYIGD_PROGRAM) + " --headless --frames 1 --config " + site.config_path}) {
+        const Finished finished = run({"/bin/sh", "-c", command + " >/dev/full"});
+        EXPECT_EQ(finished.status, 1) << command;
+        EXPECT_THAT(finished.err, HasSubstr("standard output: not all could be written: No space left"))
+            << command;
+        const Finished piped = run({"/bin/sh", "-c", "{ " + command + "; echo $? >&2; } | true"});
+        EXPECT_THAT(piped.err, testing::Not(HasSubstr("standard output"))) << command;
+    }
+}
+
 }  // namespace
 }  // namespace skyig::tests

@@ -13,6 +13,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -30,6 +31,7 @@ using protocol::transport::FileDescriptor;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::json;
 
 /// The manager's end of NOTIFY_SOCKET.
@@ -159,6 +161,25 @@ TEST(Service, TakesWhatCanChangeLiveAndSaysWhatCannot) {
     EXPECT_EQ(status["world"]["air"]["visibility_m"], 5000.0);
 }
 
+TEST(Service, TakesAnotherQualityWithoutAFailedFrame) {
+    const Service service;
+    Process daemon(service.command(), service.environment("0"));
+    ASSERT_TRUE(service.manager.hears("READY=1"));
+    rewrite(service.site, "version = 1\n", "version = 1\nquality.error_codes = 4.0\n");
+    daemon.signal(SIGHUP);
+    EXPECT_TRUE(service.manager.hears("READY=1\nSTATUS=settings taken"));
+    ASSERT_TRUE(daemon.wait_for_err("settings read anew: quality.error_codes\n"));
+    const std::uint64_t frames = status_of(daemon)["frames"];
+    Json status = status_of(daemon);
+    for (int i = 0; i < 100 && status["frames"] < frames + 3; ++i)
+        status = status_of(daemon);
+    EXPECT_GE(status["frames"], frames + 3) << "frames go on";
+    EXPECT_EQ(status["gl_errors"], 0);
+    EXPECT_THAT(daemon.err_so_far(), Not(HasSubstr("cannot be drawn")));
+    daemon.signal(SIGTERM);
+    EXPECT_EQ(daemon.wait().status, 0);
+}
+
 TEST(Service, RefusesABrokenFileWholeAndGoesOn) {
     const Service service;
     Process daemon(service.command(), service.environment("0"));
@@ -202,6 +223,31 @@ TEST(Service, AFullDiskCostsTheRecordingOnly) {
     EXPECT_EQ(finished.status, 0) << finished.err;
     EXPECT_THAT(finished.err, HasSubstr("/dev/full: writing failed; the recording ends there"));
     EXPECT_EQ(Json::parse(read_text(site.report_path))["frames"], 40);
+}
+
+/// A shell's words in a mount namespace of their own, where `directory` is a disk that takes no writes.
+Finished run_with_read_only(const std::string& directory, const std::string& words) {
+    const std::string mounted = "mount -t tmpfs tmpfs '" + directory + "' && mount -o remount,ro '" +
+                                directory + "' || exit 77; " + words;
+    Finished finished = run({"/usr/bin/unshare", "--mount", "/bin/sh", "-c", mounted});
+    if (finished.status == 77 || finished.err.starts_with("unshare:"))
+        finished = run({"/usr/bin/unshare", "--map-root-user", "--mount", "/bin/sh", "-c", mounted});
+    return finished;
+}
+
+TEST(Service, OnADiskThatIsReadOnlySaysWhichFileCannotBeMade) {
+    const Site site;
+    const std::string disk = site.scratch.file("disk");
+    ASSERT_TRUE(std::filesystem::create_directory(disk));
+    const std::string daemon =
+        std::string(SKYIGD_PROGRAM) + " --headless --frames 3 --config '" + site.config_path + "' ";
+    for (const char* const option : {"--record", "--hashes", "--times", "--events", "--out", "--report"}) {
+        const std::string path = disk + "/" + (option + 2);
+        const Finished finished = run_with_read_only(disk, daemon + option + " '" + path + "'");
+        if (finished.status == 77) GTEST_SKIP() << "no mount namespaces here: " << finished.err;
+        EXPECT_EQ(finished.status, 1) << option;
+        EXPECT_THAT(finished.err, HasSubstr("skyigd: " + path + ": ")) << option;
+    }
 }
 
 TEST(Service, WhereNothingCanBeWrittenItDoesNotStart) {

@@ -2,6 +2,9 @@
 #include "clients/instructor/web_server.h"
 
 #include <gtest/gtest.h>
+#include <net/if.h>
+#include <sched.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 
@@ -9,9 +12,11 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "clients/instructor/page_files.h"
 #include "clients/instructor/websocket.h"
@@ -216,20 +221,117 @@ TEST_F(Port, DropsWhoNeverReadsAndServesTheOthers) {
                 static_cast<unsigned long long>(counts.skipped));
 }
 
-TEST_F(Port, EndsWhoAsksNothingAndTakesNoMoreThanItHolds) {
+TEST_F(Port, EndsWhoAsksNothingOrAsksOneLetterAtATime) {
+    Client silent(server_->local());
+    Client slow(server_->local());
+    const auto begin = std::chrono::steady_clock::now();
+    const auto passed = [begin] { return std::chrono::steady_clock::now() - begin; };
+    bool open = true;
+    for (const char letter : "GET /" + std::string(1000, 'x')) {
+        if (!open || passed() > std::chrono::seconds(5)) break;
+        open = slow.send(std::string(1, letter));
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_FALSE(open);
+    EXPECT_TRUE(silent.ends());
+    EXPECT_EQ(stop().timed_out, 2U);
+}
+
+TEST_F(Port, ManyWhoAskNothingKeepNobodyOut) {
     WebOptions options;
-    options.connections = 2;
+    options.connections = 4;
     start(options);
-    Client first(server_->local());
-    Client second(server_->local());
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    Client third(server_->local());
-    EXPECT_TRUE(third.ends());
-    EXPECT_TRUE(first.ends());
-    EXPECT_TRUE(second.ends());
+    Client page(server_->local());
+    page.send(upgrade("http://" + name()));
+    EXPECT_TRUE(has(page.read_until("welcome"), "welcome"));
+    std::vector<std::unique_ptr<Client>> idlers;
+    for (int i = 0; i < 40; ++i)
+        idlers.push_back(std::make_unique<Client>(server_->local()));
+    Client late(server_->local());
+    late.send(upgrade("http://" + name()));
+    EXPECT_TRUE(has(late.read_until("welcome"), "welcome"));
+    page.send(text_frame("hello"));
+    EXPECT_TRUE(has(page.read_until("heard hello"), "heard hello"));
     const WebCounts counts = stop();
-    EXPECT_EQ(counts.timed_out, 2U);
-    EXPECT_EQ(counts.refused_full, 1U);
+    EXPECT_GE(counts.gave_way, 36U);
+    EXPECT_EQ(counts.refused_full, 0U);
+    EXPECT_EQ(counts.sockets, 2U);
+}
+
+TEST_F(Port, SixtyFourPagesHearAllAndOneMoreIsToldSo) {
+    std::vector<std::unique_ptr<Client>> tabs;
+    for (int i = 0; i < 64; ++i) {
+        tabs.push_back(std::make_unique<Client>(server_->local()));
+        tabs.back()->send(upgrade("http://" + name()));
+    }
+    for (const auto& tab : tabs)
+        ASSERT_TRUE(has(tab->read_until("welcome"), "welcome"));
+    Client more(server_->local());
+    more.send(upgrade("http://" + name()));
+    EXPECT_TRUE(has(more.read_until("503"), "503"));
+    for (const auto& tab : tabs)
+        tab->send(text_frame("hello"));
+    for (const auto& tab : tabs)
+        EXPECT_TRUE(has(tab->read_until("heard hello"), "heard hello"));
+    // One that is closed makes room.
+    tabs.pop_back();
+    bool welcome = false;
+    for (int tries = 0; tries < 100 && !welcome; ++tries) {
+        Client next(server_->local());
+        next.send(upgrade("http://" + name()));
+        welcome = has(next.read_until("\r\n\r\n"), "101");
+    }
+    EXPECT_TRUE(welcome);
+    EXPECT_GE(stop().refused_full, 1U);
+}
+
+/// The loopback interface of the calling thread's own network, up or down; false where it may not.
+bool set_loopback(bool up) {
+    const transport::FileDescriptor any(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    ifreq interface {};
+    std::snprintf(interface.ifr_name, sizeof(interface.ifr_name), "lo");
+    if (::ioctl(any.get(), SIOCGIFFLAGS, &interface) != 0) return false;
+    interface.ifr_flags =
+        static_cast<short>(up ? interface.ifr_flags | IFF_UP : interface.ifr_flags & ~IFF_UP);
+    return ::ioctl(any.get(), SIOCSIFFLAGS, &interface) == 0;
+}
+
+TEST(HalfOpen, WhoIsGoneWithoutAWordIsEnded) {
+    bool may = true;
+    WebCounts counts;
+    // A thread of its own, for a network of its own, whose cable can be pulled.
+    std::thread([&] {
+        may = ::unshare(CLONE_NEWNET) == 0 && set_loopback(true);
+        if (!may) return;
+        WebOptions options;
+        options.listen.port = 0;
+        options.time_limit = std::chrono::milliseconds(400);
+        const server::SystemClock clock;
+        const auto server = WebServer::open(options, clock,
+                                            {[](std::string_view path) { return page_answer(path); },
+                                             [] { return std::vector<std::string>{"welcome"}; },
+                                             [](std::string_view) { return std::string(); }})
+                                .value();
+        Client page(server->local());
+        const std::string name = transport::to_string(server->local());
+        page.send("GET /ws HTTP/1.1\r\nHost: " + name + "\r\nOrigin: http://" + name +
+                  "\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        const auto step_while = [&](std::size_t sockets) {
+            while (server->open_sockets() == sockets && std::chrono::steady_clock::now() < end) {
+                server->step(std::chrono::milliseconds(5));
+                server->publish_update("status");
+            }
+        };
+        step_while(0);
+        EXPECT_EQ(server->open_sockets(), 1U);
+        EXPECT_TRUE(set_loopback(false));
+        step_while(1);
+        EXPECT_EQ(server->open_sockets(), 0U);
+        counts = server->counts();
+    }).join();
+    if (!may) GTEST_SKIP() << "no network of its own is allowed here";
+    EXPECT_EQ(counts.ended_for_slow, 1U);
 }
 
 }  // namespace

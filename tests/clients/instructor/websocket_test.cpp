@@ -116,6 +116,7 @@ TEST(Admission, LetsInTheOwnPageAlone) {
     };
     EXPECT_EQ(upgrade("127.0.0.1:8080", "http://127.0.0.1:8080"), Refusal::kNone);
     EXPECT_EQ(upgrade("localhost:8080", "http://localhost:8080"), Refusal::kNone);
+    EXPECT_EQ(upgrade("[::1]:8080", "http://[::1]:8080"), Refusal::kNone);
     EXPECT_EQ(upgrade("127.0.0.1:8080", "http://evil.example"), Refusal::kOrigin);
     EXPECT_EQ(upgrade("127.0.0.1:8080", "http://127.0.0.1:8081"), Refusal::kOrigin);
     EXPECT_EQ(upgrade("127.0.0.1:8080", "null"), Refusal::kOrigin);
@@ -140,6 +141,7 @@ TEST(Admission, AsksForTheTokenAndKnowsTheProxysName) {
          {"", "?token=", "?token=rather-secre", "?token=rather-secret1", "?tokens=rather-secret"})
         EXPECT_EQ(upgrade(far, wrong), Refusal::kToken) << wrong;
     EXPECT_EQ(upgrade({true, "", {"sky.example"}}, ""), Refusal::kNone);
+    EXPECT_EQ(upgrade({true, "", {"Sky.Example"}}, ""), Refusal::kNone);
     EXPECT_EQ(upgrade({true, "", {"other.example"}}, ""), Refusal::kHost);
 }
 

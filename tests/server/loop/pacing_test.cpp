@@ -175,6 +175,23 @@ TEST_F(DelayLoop, TellsTheTimeFromArrivalToThePictureOfEachChannel) {
     EXPECT_EQ(report.delays[2].name, "shown");
 }
 
+TEST_F(DelayLoop, DelaysDoNotNoticeThatTheClockIsSet) {
+    loop();
+    for (std::uint32_t i = 1; i <= 50; ++i) {
+        if (i % 20 == 0) clock_.step_utc_ns((i == 20 ? 1 : -2) * 3'600'000 * kMs);
+        link_.arrival_ns = clock_.steady_utc_ns() + (i > 1 ? 7 : 0) * kMs - 2 * kMs;
+        link_.put(kHost, Message(cigi::Version::k33, cigi::IgMode::kOperate, i, i).at(45.0).bytes());
+        loop_->run_frame();
+    }
+    const RunReport report = loop_->report();
+    EXPECT_EQ(report.delays[0].count, 50U);
+    EXPECT_NEAR(report.delays[0].median_ms, 2.0 + 1.0 + 2.0, 0.05);
+    EXPECT_NEAR(report.delays[0].largest_ms, 2.0 + 1.0 + 2.0, 0.05);
+    EXPECT_EQ(report.delays[2].name, "host interval");
+    EXPECT_NEAR(report.delays[2].largest_ms, 10.0, 0.05);
+    EXPECT_EQ(link_.last_mark.utc_ns, clock_.steady_utc_ns() - 3 * kMs);
+}
+
 TEST_F(DelayLoop, ARecordingHasNoDelays) {
     link_.is_live = false;
     loop();

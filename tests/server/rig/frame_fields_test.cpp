@@ -164,6 +164,33 @@ class Listing {
     void add(const void* value, std::size_t size) { bits.append(static_cast<const char*>(value), size); }
 };
 
+/// How many there are.
+class Counting {
+  public:
+    template <class Value>
+    void operator()(const Value&) {
+        ++values;
+    }
+    template <class Value>
+    void one_of(const Value&, std::size_t) {
+        ++values;
+    }
+    template <class Value>
+    void count(const Value&, std::size_t) {
+        ++values;
+    }
+    void text(const render::OverlayLine&) { ++values; }
+    void picture(const Picture&) { ++values; }
+    template <class Value>
+    bool given(const std::optional<Value>& value) {
+        ++values;
+        return value.has_value();
+    }
+    void skip(std::size_t skipped) { values += skipped; }
+
+    std::size_t values = 0;
+};
+
 std::string bits_of(FrameState& state) {
     Listing listing;
     FrameFields<FrameState, Listing>(state, listing).all();
@@ -184,6 +211,29 @@ class FrameFieldsTest : public ::testing::Test {
         std::make_shared<render::cloud::field::Texture>(16, std::vector<float>(256, 0.5F))};
     const FrameCoder coder{pictures};
 };
+
+TEST_F(FrameFieldsTest, AreAsManyAsAStateHasValuesWhatsoeverIsGiven) {
+    constexpr std::size_t kVector = 3, kMatrix = 9, kGiven = 1, kLength = 1;
+    constexpr std::size_t kFrame = 4, kEyes = 6, kPlace = 1 + 3, kText = 4;
+    constexpr std::size_t kSun = 4 + kVector, kMoon = 7 + 3 * kVector + kMatrix;
+    constexpr std::size_t kStars = 3 + kMatrix + kVector, kPlanets = 5 * (2 + kVector), kAir = 6;
+    constexpr std::size_t kGround = 6 + kGiven, kSea = 4 + kLength + 16 * 7;
+    constexpr std::size_t kArea = kGiven + 7, kLook = kGiven + 3 * 6 + 2 + kVector;
+    constexpr std::size_t kClouds = kLength + 16 * (13 + 2 + kArea + kLook);
+    constexpr std::size_t kObscurants = kLength + 16 * (8 + 2 + kArea);
+    constexpr std::size_t kWeather = kClouds + kObscurants + kLength + 5 * 3 + kLength + 8 * 3 + 2 * kVector;
+    constexpr std::size_t kSky = 5 + 2 * (kGiven + 1) + 12 + 4 * kVector;
+    constexpr std::size_t kNight = 8 + kLength + 8 * 5;
+    constexpr std::size_t kViews = kLength + 16 * (4 + kMatrix + 5 + 3);
+    constexpr std::size_t kAll = kFrame + kEyes + kPlace + kText + kSun + kMoon + kStars + kPlanets + kAir +
+                                 kGround + kSea + kWeather + kSky + kNight + kViews;
+    for (const bool full : {false, true}) {
+        const auto state = any_state(1, full);
+        Counting counting;
+        FrameFields<FrameState, Counting>(*state, counting).all();
+        EXPECT_EQ(counting.values, kAll);
+    }
+}
 
 TEST_F(FrameFieldsTest, AnyValuesTravelToTheLastBit) {
     std::vector<std::byte> bytes(std::size_t{1} << 16U);

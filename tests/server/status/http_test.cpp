@@ -77,8 +77,21 @@ TEST(HttpHead, MutationsAreReadWithoutHarm) {
     EXPECT_GT(refused, 100);
 }
 
+TEST(HttpHead, HostIsWithoutItsPort) {
+    const auto host_of = [](const std::string& host) {
+        const std::string head = "GET / HTTP/1.1\r\nHost: " + host + "\r\n\r\n";
+        return std::string(read_head(head).request.host);
+    };
+    EXPECT_EQ(host_of("localhost"), "localhost");
+    EXPECT_EQ(host_of("localhost:8080"), "localhost");
+    EXPECT_EQ(host_of("[::1]"), "[::1]");
+    EXPECT_EQ(host_of("[fe80::1]:8080"), "[fe80::1]");
+    EXPECT_EQ(host_of("[::1"), "[:");  // no host, and no local name
+    EXPECT_FALSE(is_local_name("[:"));
+}
+
 TEST(HttpHead, NamesOfThisMachine) {
-    for (const char* local : {"", "localhost", "LocalHost", "127.0.0.1", "192.168.1.5"})
+    for (const char* local : {"", "localhost", "LocalHost", "127.0.0.1", "192.168.1.5", "[::1]"})
         EXPECT_TRUE(is_local_name(local)) << local;
     for (const char* foreign : {"example.org", "localhost.example.org", "127.0.0.1.example.org", "a"})
         EXPECT_FALSE(is_local_name(foreign)) << foreign;
