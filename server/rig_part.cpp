@@ -79,7 +79,12 @@ RigPart::RigPart(const config::Config& config, const std::string& node, std::uin
       machine_(machine_settings(config, node, settings, ends), key_, coder_, *link_, ends.clock, ends.log),
       pace_(machine_, ends.pace, ends.idle),
       wire_(machine_, ends.wire),
-      painter_(machine_, ends.painter, pace_, ends.world, own_channels(config, node), ends.idle) {}
+      painter_(machine_, ends.painter, pace_, ends.world, own_channels(config, node), ends.idle) {
+    if (rig::is_open_to_all(config.rig->key_file)) {
+        ends.log.warning("{}: every user of this machine can read the rig's key: chmod 640 takes that away",
+                         config.rig->key_file);
+    }
+}
 
 bool RigPart::may_lead(const config::Rig& rig, const std::string& node) {
     const std::vector<std::string> names = leaders_of(rig);

@@ -20,6 +20,8 @@ bool is_a_machines_own(const config::KeyUse& use) {
     constexpr std::array<std::string_view, 7> kTables{"status", "preview", "record", "log",
                                                       "output", "window",  "rig"};
     constexpr std::array<std::string_view, 4> kKeys{"listen", "reply_to", "allow", "interface"};
+    // Who follows whom is of all.
+    if (use.table == "rig" && (use.key == "leader" || use.key == "stand_ins")) return false;
     const std::string_view table = std::string_view(use.table).substr(0, use.table.find_first_of(".["));
     return std::find(kTables.begin(), kTables.end(), table) != kTables.end() ||
            std::find(kKeys.begin(), kKeys.end(), use.key) != kKeys.end();

@@ -10,7 +10,8 @@ namespace skyig::server::rig {
 
 /// Of all values that hold, given or not, and of the bytes of every file that a value names; without what is
 /// a machine's own: where it listens and answers, what it records and logs, its status and preview, its
-/// windows. \param keys  of the reading \param settings_file  beside which files are meant
+/// windows, and of the rig all but who may lead. \param keys  of the reading \param settings_file  beside
+/// which files are meant
 [[nodiscard]] std::uint64_t fingerprint(const config::KeyLog& keys, const std::string& settings_file);
 
 }  // namespace skyig::server::rig

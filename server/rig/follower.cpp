@@ -15,6 +15,7 @@ Follower::Follower(FollowerSettings settings, const Key& key, const FrameCoder& 
       link_(link),
       clock_(clock),
       log_(log),
+      heard_(settings_.leaders.size()),
       heard_ns_(clock.monotonic_ns()),
       frames_(kMostWaiting) {
     frame_message_.state.reserve(kMostStateBytes);
@@ -49,10 +50,6 @@ void Follower::take(const FrameMessage& message) {
     if (!obeys(message)) return;
     if (message.from != leader_) follow(message);
     heard_ns_ = clock_.monotonic_ns();
-    if (any_frame_ && message.frame <= last_frame_) {
-        ++counts_.stale;
-        return;
-    }
     if (waiting_ == kMostWaiting) {
         first_ = (first_ + 1) % kMostWaiting;
         --waiting_;
@@ -93,13 +90,33 @@ bool Follower::obeys(const FrameMessage& message) {
         refuses_ = true;
         return false;
     }
-    if (message.from == leader_) return true;
-    if (message.from.node == leader_.node) return message.from.session > leader_.session;
+    if (!is_news(message)) return false;
+    if (message.from.node == leader_.node) return true;
     const bool free = !has_leader() || silent_ns() > settings_.lost_after_ns / 2;
     if (message.rank < least_rank_ || (!free && message.rank <= leader_rank_)) {
         ++counts_.outranked;
         return false;
     }
+    return true;
+}
+
+bool Follower::is_news(const FrameMessage& message) {
+    const std::vector<std::string>& may = settings_.leaders;
+    const auto place = std::find(may.begin(), may.end(), message.from.node) - may.begin();
+    Heard& heard = heard_[static_cast<std::size_t>(place)];
+    const bool earlier_run = message.from.session < heard.session;
+    const bool first = message.from.session > heard.session;
+    if (earlier_run || (!first && message.frame <= heard.frame)) {
+        ++counts_.stale;
+        if (earlier_run) {
+            log_.limited("rig earlier run", kRepeatAfter_s, Severity::kWarning,
+                         "a frame of {} from a run before the one that was heard: not drawn (does it run "
+                         "twice, or has its clock gone back?)",
+                         message.from.node);
+        }
+        return false;
+    }
+    heard = {message.from.session, message.frame};
     return true;
 }
 

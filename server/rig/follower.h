@@ -31,7 +31,7 @@ struct FollowerCounts {
     std::uint64_t unreadable = 0;  ///< states that are none
     std::uint64_t refused = 0;     ///< of another build, or with other settings
     std::uint64_t outranked = 0;   ///< of a second leader
-    std::uint64_t stale = 0;       ///< of frames that are over
+    std::uint64_t stale = 0;       ///< of frames that are over, and of runs of a leader that are
     std::uint64_t missed = 0;      ///< frames that never came
     std::uint64_t repeats = 0;     ///< drawn after the leader had gone on: the picture before stayed
     std::uint64_t late = 0;        ///< shown, but after the leader's word
@@ -99,6 +99,7 @@ class Follower {
   private:
     void take(const FrameMessage& message);
     [[nodiscard]] bool obeys(const FrameMessage& message);
+    [[nodiscard]] bool is_news(const FrameMessage& message);
     void follow(const FrameMessage& message);
     void say(NodeState state);
 
@@ -111,6 +112,12 @@ class Follower {
 
     Speaker leader_;
     std::uint32_t leader_rank_ = 0;
+    /// How far each of settings_.leaders was heard: what it once said counts once, whoever sends it again.
+    struct Heard {
+        std::uint64_t session = 0;
+        std::uint64_t frame = 0;
+    };
+    std::vector<Heard> heard_;
     std::uint32_t least_rank_ = 0;
     std::int64_t heard_ns_;
     bool any_frame_ = false;

@@ -38,7 +38,9 @@ void Leader::take(const NodeMessage& message) {
     const auto found = std::find_if(members_.begin(), members_.end(), [&message](const Member& member) {
         return member.name == message.from.node;
     });
-    if (found == members_.end() || message.from.session < found->session) {
+    // Of two of one name the later one; a node whose clock has gone back is heard once its former run is
+    // silent.
+    if (found == members_.end() || (found->here && message.from.session < found->session)) {
         ++counts_.strangers;
         return;
     }

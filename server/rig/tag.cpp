@@ -4,8 +4,10 @@
 
 #include <bit>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
 namespace skyig::server::rig {
 
@@ -83,6 +85,13 @@ protocol::Result<Key, std::string> read_key(const std::string& path) {
     auto key = parse_key(text);
     if (!key) return protocol::Error{fmt::format("{}: {}", path, key.error())};
     return key;
+}
+
+bool is_open_to_all(const std::string& path) noexcept {
+    namespace fs = std::filesystem;
+    std::error_code none;
+    const fs::perms may = fs::status(path, none).permissions();
+    return !none && (may & fs::perms::others_read) != fs::perms::none;
 }
 
 }  // namespace skyig::server::rig

@@ -67,6 +67,8 @@ TEST(Fingerprint, IsAnotherWithAnySettingThatPicturesDependOn) {
         EXPECT_NE(of(site(lines)), before) << lines;
     EXPECT_NE(of(site("", kRig, replaced(kChannels, "yaw_deg = 60", "yaw_deg = 61"))), before);
     EXPECT_NE(of(site("", kRig, replaced(kChannels, "node = \"side\"", "node = \"main\""))), before);
+    EXPECT_NE(of(site("", replaced(kRig, "leader = \"main\"", "leader = \"side\""))), before);
+    EXPECT_NE(of(site("", replaced(kRig, "key_file", "stand_ins = [\"side\"]\nkey_file"))), before);
 }
 
 TEST(Fingerprint, TellsTwoChannelsThatChangePlacesApart) {

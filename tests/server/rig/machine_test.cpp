@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -234,6 +235,61 @@ TEST_F(RigMachines, AStandInGoesOnFromTheLastFrameWhenTheLeaderIsSilent) {
     ASSERT_TRUE(again.machine.await_work([&again] { return again.give_up(); }));
     EXPECT_FALSE(again.machine.leads());
     EXPECT_EQ(again.machine.follower().leader(), "left");
+}
+
+TEST_F(RigMachines, WhatALeaderOnceSaidCountsOnceWhoeverSendsItAgain) {
+    FakeLink& ear = network.join();
+    frame(1);
+    left.draw();
+    right.draw();
+    frame(2);
+    const std::deque<rig::FrameMessage> recorded = ear.frames;
+    ASSERT_EQ(recorded.size(), 2U);
+    // The leader is gone, its stand-in leads; a stranger who has no key sends what it has recorded.
+    lead.link.cut = true;
+    ASSERT_TRUE(left.machine.await_work([this] { return left.give_up(); }));
+    ASSERT_TRUE(left.machine.leads());
+    left.machine.leader().tell(state_of(3));
+    ASSERT_TRUE(right.draw());
+    ASSERT_EQ(right.machine.follower().leader(), "left");
+    for (const rig::FrameMessage& message : recorded)
+        ear.send(message);
+    EXPECT_FALSE(right.draw());
+    EXPECT_EQ(right.machine.follower().leader(), "left");
+    EXPECT_EQ(right.machine.follower().counts().stale, 2U);
+    ASSERT_TRUE(left.machine.await_work([this] { return left.give_up(); }));
+    EXPECT_TRUE(left.machine.leads());
+}
+
+TEST_F(RigMachines, ALeadersEarlierRunIsNotFollowedAndNamed) {
+    frame(1);
+    right.draw();
+    Node past(network, "lead", {"lead", "left"}, "build", 7, kKey, 0);
+    past.machine.leader().tell(state_of(5));
+    EXPECT_FALSE(right.draw());
+    EXPECT_EQ(right.machine.follower().counts().stale, 1U);
+    EXPECT_THAT(right.lines, HasSubstr("has its clock gone back?"));
+}
+
+TEST_F(RigMachines, ANodeWhoseClockWentBackIsHeardOnceItsFormerRunIsSilent) {
+    frame(1);
+    left.draw();
+    right.draw();
+    frame(2);
+    const auto here = [this] { return lead.machine.leader().members()[1].here; };
+    ASSERT_TRUE(here());
+    right.link.cut = true;
+    lead.link.meanwhile = [this] { left.draw(); };
+    Node again(network, "right", {"lead", "left"}, "build", 7, kKey, 0);
+    again.machine.follower().tell_alive();
+    lead.machine.leader().listen();
+    EXPECT_EQ(lead.machine.leader().counts().strangers, 1U);
+    network.clock.advance_ns(2000 * kMs);
+    frame(3);
+    ASSERT_FALSE(here());
+    again.machine.follower().tell_alive();
+    lead.machine.leader().listen();
+    EXPECT_TRUE(here());
 }
 
 TEST_F(RigMachines, OfTwoThatLeadTheFirstOfTheSettingsGoesOn) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <filesystem>
+#include <fstream>
 
 namespace skyig::server::rig {
 namespace {
@@ -31,6 +33,18 @@ TEST(Key, IsReadFromHexadecimalDigitsAndRefusedOtherwise) {
               "holds 4 characters; it must hold 32 hexadecimal digits, as \"openssl rand "
               "-hex 16\" writes them");
     EXPECT_EQ(read_key("/nowhere/key").error(), "/nowhere/key: the rig's key cannot be read");
+}
+
+TEST(Key, IsToldOpenWhereEveryUserCanReadItsFile) {
+    namespace fs = std::filesystem;
+    const fs::path path = fs::path(::testing::TempDir()) / "skyig-rig-key";
+    std::ofstream(path) << "000102030405060708090a0b0c0d0e0f\n";
+    fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);
+    EXPECT_FALSE(is_open_to_all(path));
+    fs::permissions(path, fs::perms::others_read, fs::perm_options::add);
+    EXPECT_TRUE(is_open_to_all(path));
+    fs::remove(path);
+    EXPECT_FALSE(is_open_to_all(path));
 }
 
 }  // namespace
