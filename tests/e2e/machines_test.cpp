@@ -93,10 +93,12 @@ TEST_P(MachinesTest, DrawTheSamePicturesAsOneMachine) {
     Part right = start(machines, scratch, config, 2, frames);
     Part lead = start(machines, scratch, config, 0, {"--replay", kFlight, "--frames", "40"});
     std::string together;
+    std::string said;
     for (Part* part : {&lead, &left, &right}) {
         const Finished finished = part->process->wait(std::chrono::seconds(60));
         EXPECT_EQ(finished.status, 0) << finished.err;
         together += read_text(part->hashes_path);
+        said += finished.err;
     }
     const std::set<std::string> expected = lines_of(alone.hashes);
     const std::set<std::string> got = lines_of(together);
@@ -106,7 +108,7 @@ TEST_P(MachinesTest, DrawTheSamePicturesAsOneMachine) {
     for (const std::string& line : got)
         alike += static_cast<long>(expected.count(line));
     std::printf("%s: %ld of %zu pictures alike\n", GetParam().name.c_str(), alike, expected.size());
-    EXPECT_TRUE(got == expected);
+    EXPECT_TRUE(got == expected) << said;
 }
 
 /// Frame number and shown_ns of `skyigd --times`; those that were not shown left out.
