@@ -28,6 +28,14 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
     if (void* memory = std::aligned_alloc(step, (size + step) / step * step)) return memory;
     throw std::bad_alloc();
 }
+// The sanitizers bring their own of these, which do not end in ours.
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+    count();
+    return std::malloc(size == 0 ? 1 : size);
+}
+void operator delete(void* memory, const std::nothrow_t& /*tag*/) noexcept {
+    std::free(memory);
+}
 void operator delete(void* memory) noexcept {
     std::free(memory);
 }
