@@ -13,9 +13,16 @@ constexpr std::array<std::string_view, 3> kPacingNames{"clock", "display", "host
 
 std::string all_thinnings() {
     std::string text;
-    for (const std::string_view name : kThinningNames)
-        text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
+    for (const ThinningName& each : kThinningNames)
+        text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", each.name);
     return text;
+}
+
+/// What was in older settings, with why it is gone.
+std::string told_of(std::string_view name) {
+    constexpr std::array<std::string_view, 3> kSavedNothing{"cloud-motion", "dome", "stars"};
+    const bool gone = std::find(kSavedNothing.begin(), kSavedNothing.end(), name) != kSavedNothing.end();
+    return fmt::format("\"{}\"{}", name, gone ? ", which is no more: leaving it out saved no time" : "");
 }
 
 void read_order(TableReader& table, std::vector<Thinning>& order) {
@@ -30,18 +37,17 @@ void read_order(TableReader& table, std::vector<Thinning>& order) {
     }
     for (const Value& item : list->items) {
         const auto* text = std::get_if<std::string>(&item.data);
-        const auto* const name = text == nullptr
-                                     ? kThinningNames.end()
-                                     : std::find(kThinningNames.begin(), kThinningNames.end(), *text);
-        if (name == kThinningNames.end()) {
-            table.error(
-                item, "order",
-                fmt::format("holds {}; it must be a list of some of {}",
-                            text == nullptr ? std::string(type_name(item)) : fmt::format("\"{}\"", *text),
-                            all_thinnings()));
+        const auto found =
+            std::find_if(kThinningNames.begin(), kThinningNames.end(),
+                         [text](const ThinningName& each) { return text != nullptr && each.name == *text; });
+        if (found == kThinningNames.end()) {
+            table.error(item, "order",
+                        fmt::format("holds {}; it must be a list of some of {}",
+                                    text == nullptr ? std::string(type_name(item)) : told_of(*text),
+                                    all_thinnings()));
             continue;
         }
-        const auto thinning = static_cast<Thinning>(name - kThinningNames.begin());
+        const Thinning thinning = found->thinning;
         if (std::find(order.begin(), order.end(), thinning) != order.end()) {
             table.error(item, "order", fmt::format("holds \"{}\" twice", *text));
             continue;
@@ -84,7 +90,7 @@ void read_overload(TableReader table, Overload& overload) {
     read_order(table, overload.order);
     std::vector<std::string> order;
     for (const Thinning thinning : overload.order)
-        order.emplace_back(kThinningNames[static_cast<std::size_t>(thinning)]);
+        order.emplace_back(thinning_name(thinning));
     table.describe("order", fmt::format("list of {}", all_thinnings()), to_toml(order));
     table.number("thin_above_pct", overload.thin_above_pct, {10.0, 200.0, "%"});
     table.integer("thin_after_frames", overload.thin_after_frames, 1, 10'000, "frames");

@@ -37,20 +37,33 @@ struct Daemon {
     }
 };
 
-/// \see render::Thin
+/// \see render::Thin, whose numbers these are
 enum class Thinning : std::uint8_t {
-    kCloudRefresh,
-    kCloudMotion,
-    kDome,
-    kStars,
-    kPrecipitation,
-    kWaves,
-    kGlare,
-    kMilkyWay
+    kCloudRefresh = 0,
+    kPrecipitation = 4,
+    kWaves = 5,
+    kGlare = 6,
+    kMilkyWay = 7,
+    kCloudTones = 8,
+    kCloudShadows = 9
 };
-/// As the settings write them.
-inline constexpr std::array<std::string_view, 8> kThinningNames{
-    "cloud-refresh", "cloud-motion", "dome", "stars", "precipitation", "waves", "glare", "milky-way"};
+struct ThinningName {
+    Thinning thinning;
+    std::string_view name;
+};
+/// As the settings write them; those first that nobody will miss.
+inline constexpr std::array<ThinningName, 7> kThinningNames{{{Thinning::kCloudRefresh, "cloud-refresh"},
+                                                             {Thinning::kCloudTones, "cloud-tones"},
+                                                             {Thinning::kPrecipitation, "precipitation"},
+                                                             {Thinning::kGlare, "glare"},
+                                                             {Thinning::kMilkyWay, "milky-way"},
+                                                             {Thinning::kCloudShadows, "cloud-shadows"},
+                                                             {Thinning::kWaves, "waves"}}};
+[[nodiscard]] constexpr std::string_view thinning_name(Thinning thinning) noexcept {
+    for (const ThinningName& each : kThinningNames)
+        if (each.thinning == thinning) return each.name;
+    return {};
+}
 
 /// One thing after the other is left out while frames take too long, and comes back, the last first, when
 /// there is time again: at most one a second.

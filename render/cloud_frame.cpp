@@ -139,7 +139,7 @@ void CloudFrame::serve_things() noexcept {
     serves_things_ = true;
     things_.reserve(made_.size() * CloudTile::kThingFloats);
     for (Made& made : made_)
-        made.map = 0;
+        made.map = made.at_frame = 0;
 }
 
 glm::dvec3 CloudFrame::probed(const DeferredAir& air, const glm::dvec3& behind_cd_m2,
@@ -188,7 +188,7 @@ bool CloudFrame::serves(int tile, std::uint64_t tone_revision) const noexcept {
     const double shaded_m = shaded_from_m(tile);
     if (shaded_m > 0.0) {
         // A third of a texel at least: the step may be a cloud's edge, shadows are softer.
-        const float still_rad = steps_ * std::max(kStep / std::max(steps_a_rad, 1e-9F), 5e-4F);
+        const float still_rad = std::max(kStep / std::max(steps_a_rad, 1e-9F), 5e-4F);
         if (!shadow_->serves(made.shadow, shaded_m, tile, static_cast<double>(still_rad))) return false;
     } else if (made.shadow.shaded) {
         return false;
@@ -201,9 +201,16 @@ bool CloudFrame::serves(int tile, std::uint64_t tone_revision) const noexcept {
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const glm::vec3 moved_m = parts[k].offset_m - made.offsets_m[k];
         const float aside_m = glm::length(glm::cross(axis, moved_m));
-        if (aside_m * parts[k].snapshot->nearest_inverse(tile) * steps_a_rad > steps_ * kStep) return false;
+        if (aside_m * parts[k].snapshot->nearest_inverse(tile) * steps_a_rad > kStep) return false;
     }
     return true;
+}
+
+// Whether it is another tile's turn. What was toned longer ago than a round has not been in view.
+bool CloudFrame::rests(int tile) const noexcept {
+    const Made& made = made_[static_cast<std::size_t>(tile)];
+    const bool turn = (frames_ + static_cast<std::uint64_t>(tile)) % tone_every_ == 0;
+    return made.clouded && made.at_frame != 0 && !jumped_ && !turn && frames_ < made.at_frame + tone_every_;
 }
 
 void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
@@ -214,6 +221,7 @@ void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
     toned_count_ = 0;
     clouded_.clear();
     clouded_tiles_.clear();
+    ++frames_;
     if (!shown_) return;
     for (std::size_t screen = 0; screen < laws_.size(); ++screen)
         laws_[screen] = law_of(tones[screen]);
@@ -229,6 +237,8 @@ void CloudFrame::tone(const SkyLight& light, const DeferredAir& air,
         }
     }
     refresh_backdrops(light, air, light_revision + 1);
+    if (shadow_ != nullptr)
+        shadow_cells_ = shadow_->cells(static_cast<float>(map_.geometry().worst_texel_rad()));
     const std::size_t most = map_.seen_tiles().size() * kTileFloats;
     for (auto& texels : texels_) {
         if (texels.size() < most) texels.resize(most);
@@ -245,12 +255,12 @@ void CloudFrame::refresh_tile(int tile, const SkyLight& light, std::uint64_t ton
     look_up(near_, map_, tile);
     const cloud::Flashes flashes = flashes_on(map_.cone(tile), flashes_);
     const bool flashed = flashes.count > 0;
-    if (!flashed && !made.flashed && serves(tile, tone_revision)) return;
+    if (!flashed && !made.flashed && (rests(tile) || serves(tile, tone_revision))) return;
     const std::size_t count = toned_count_++;
     const std::size_t first = count * kTileFloats;
     const bool shaded = shaded_from_m(tile) > 0.0;
     tile_.take(map_, tile, backdrops_[index], near_, light, flashes);
-    if (shaded) tile_.shade(*shadow_, backdrops_[index]);
+    if (shaded) tile_.shade(shadow_cells_, backdrops_[index]);
     const std::span<float> things =
         serves_things_ ? std::span{things_}.subspan(count * CloudTile::kThingFloats, CloudTile::kThingFloats)
                        : std::span<float>{};
@@ -262,6 +272,7 @@ void CloudFrame::refresh_tile(int tile, const SkyLight& light, std::uint64_t ton
     made.shadow = shaded ? shadow_->as_made() : GroundShadow::Made{};
     made.map = map_.revision();
     made.tone = tone_revision;
+    made.at_frame = frames_;
     for (std::size_t k = 0; k < map_.parts().size(); ++k)
         made.offsets_m[k] = map_.parts()[k].offset_m;
     near_made_[index] = near_;

@@ -11,6 +11,7 @@
 
 #include "render/cloud/cloud_map.h"
 #include "render/cloud/lightning.h"
+#include "render/cloud/shadow_cells.h"
 #include "render/cloud/tile_tone.h"
 #include "render/cloud_tile.h"
 #include "render/deferred.h"
@@ -47,9 +48,8 @@ class CloudFrame {
     void shade_ground(const GroundShadow* shadow) noexcept { shadow_ = shadow; }
     /// From now on things stand among the clouds: tones all again.
     void serve_things() noexcept;
-    /// By how many steps at once what is toned follows the eye, at least 1: a step moves no code by more than
-    /// half of one.
-    void step_by(float steps) noexcept { steps_ = steps; }
+    /// Tiles that are shown are toned anew every so many frames at most, at least 1: not all in the same one.
+    void tone_every(int frames) noexcept { tone_every_ = static_cast<std::uint64_t>(frames); }
     /// Tones what has changed. \param tones  one for each screen \param light_revision  rises when the light
     /// has changed by what may show \param tone_revision  likewise \param flashes  that light the clouds
     void tone(const SkyLight& light, const DeferredAir& air, std::span<const shaders64::ToneParameters> tones,
@@ -100,6 +100,7 @@ class CloudFrame {
         std::array<glm::vec3, 2> offsets_m{};  // of the map's parts
         bool with_clouds = false;
         GroundShadow::Made shadow;
+        std::uint64_t at_frame = 0;  // 0: must not rest
     };
     void resize();
     [[nodiscard]] glm::dvec3 composed(const cloud::CloudMap::Sight& sight, const DeferredAir& air,
@@ -108,6 +109,7 @@ class CloudFrame {
     void refresh_backdrops(const SkyLight& light, const DeferredAir& air, std::uint64_t revision);
     void refresh_tile(int tile, const SkyLight& light, std::uint64_t tone_revision) noexcept;
     [[nodiscard]] bool serves(int tile, std::uint64_t tone_revision) const noexcept;
+    [[nodiscard]] bool rests(int tile) const noexcept;
 
     /// How far the nearest ground of a tile is that shadows are told of; 0: there is none.
     [[nodiscard]] double shaded_from_m(int tile) const noexcept;
@@ -115,6 +117,7 @@ class CloudFrame {
     cloud::CloudMap map_;
     PatchColumns patches_;
     const GroundShadow* shadow_ = nullptr;
+    cloud::ShadowCells shadow_cells_{};  // of this frame
     bool serves_things_ = false;
     std::vector<float> things_;
     bool shown_ = false;
@@ -133,7 +136,8 @@ class CloudFrame {
     std::vector<cloud::Cone> clouded_;
     std::vector<int> clouded_tiles_;
     std::size_t next_backdrop_ = 0;
-    float steps_ = 1.0F;
+    std::uint64_t tone_every_ = 1;
+    std::uint64_t frames_ = 0;
     std::uint64_t size_revision_ = 0;
 };
 

@@ -190,31 +190,16 @@ void CloudTile::take(const cloud::CloudMap& map, int tile, const CloudBackdrop& 
     if (near.any) take_near(backdrop, near);
     covered_ = near.any && hides_far(map, backdrop);
     tile_.clear = !map.may_show(tile);
-    tile_.shaded = false;
+    tile_.shadow = nullptr;
 }
 
-void CloudTile::shade(const GroundShadow& shadow, const CloudBackdrop& backdrop) noexcept {
-    shadow_ = &shadow;
-    tile_.shaded = true;
+void CloudTile::shade(const cloud::ShadowCells& shadow, const CloudBackdrop& backdrop) noexcept {
+    tile_.shadow = &shadow;
     copy_rgb(backdrop.sunlit, tile_.sunlit);
-}
-
-// Shadows and gaps where the beam comes to the ground.
-void CloudTile::shade_row(int row) noexcept {
-    const auto texel_rad = static_cast<float>(geometry_.worst_texel_rad());
-    for (int i = 0; i < kToneRow; ++i) {
-        GroundShadow::Place place;
-        const glm::vec3 direction = geometry_.direction(tile_.column + i, tile_.row + row, tile_.lower);
-        const float over_mean =
-            shadow_->meets(direction, texel_rad, place) ? shadow_->over_mean(place) : 0.0F;
-        for (auto& shade : row_.shade)
-            shade[i] *= over_mean;
-    }
 }
 
 void CloudTile::gather(int row) noexcept {
     cloud::tone_kernel().gather(tile_, row, row_);
-    if (tile_.shaded) shade_row(row);
     if (flashes_.count > 0) add_flashes(row);
 }
 

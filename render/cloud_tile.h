@@ -8,6 +8,7 @@
 
 #include "render/cloud/cloud_map.h"
 #include "render/cloud/lightning.h"
+#include "render/cloud/shadow_cells.h"
 #include "render/cloud/tile_tone.h"
 #include "render/deferred.h"
 #include "render/ground_shadow.h"
@@ -65,8 +66,8 @@ class CloudTile {
     /// \param tile  one that a view sees \param flashes  that light it
     void take(const cloud::CloudMap& map, int tile, const CloudBackdrop& backdrop, const NearNodes& near,
               const SkyLight& light, const cloud::Flashes& flashes) noexcept;
-    /// After take(), if its ground lies in shadows of single clouds; `shadow` must live until tone().
-    void shade(const GroundShadow& shadow, const CloudBackdrop& backdrop) noexcept;
+    /// After take(), if its ground lies in shadows of single clouds, which must live until tone().
+    void shade(const cloud::ShadowCells& shadow, const CloudBackdrop& backdrop) noexcept;
     /// \param laws  of each screen \param out  of each screen; the tile's floats begin at first \param things
     /// kThingFloats, or none
     /// \return largest step of a code or a factor from texel to texel, 0..1
@@ -78,7 +79,6 @@ class CloudTile {
     void take_near(const CloudBackdrop& backdrop, const NearNodes& near) noexcept;
     [[nodiscard]] bool hides_far(const cloud::CloudMap& map, const CloudBackdrop& backdrop) const noexcept;
     void gather(int row) noexcept;
-    void shade_row(int row) noexcept;
     void add_flashes(int row) noexcept;
     void tell_things(int row, std::span<float> things) const noexcept;
     void cover(const cloud::ToneLaw& law, float* out) const noexcept;
@@ -89,7 +89,6 @@ class CloudTile {
     cloud::ToneTile tile_{};
     cloud::ToneRow row_{};
     cloud::Flashes flashes_;
-    const GroundShadow* shadow_ = nullptr;
     float near_share_ = 0.0F;  // of the parts, what ends where near clouds begin
     bool covered_ = false;
     bool steep_ = false;

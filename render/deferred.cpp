@@ -67,8 +67,8 @@ void DeferredAir::update(const Scene& scene, const Plan& plan, const LightTables
         if (!shines(body, plan, light)) continue;
         wanted.lights[wanted.count++] = {body, horizontal_of(direction_of(body, scene)).elevation_rad};
     }
-    night_cd_m2_ =
-        light.night != nullptr ? glm::dvec3{light.night_share * light.night->horizon_rgb()} : glm::dvec3{0.0};
+    even_cd_m2_ = glm::dvec3{light.even_cd_m2};
+    if (light.night != nullptr) even_cd_m2_ += glm::dvec3{light.night_share * light.night->horizon_rgb()};
 
     const Made& latest = building_ ? back_made_ : front_made_;
     const double step_rad = largest_step_rad(latest, wanted);
@@ -116,7 +116,7 @@ void DeferredAir::tell_veil(const SkyLight& light) noexcept {
 // Of air that does not end, towards there.
 glm::dvec3 DeferredAir::endless_cd_m2(const Horizontal& view) const noexcept {
     constexpr double kEndless_m = 1e8;
-    glm::dvec3 sum = night_cd_m2_;
+    glm::dvec3 sum = even_cd_m2_;
     for (std::size_t i = 0; i < source_count_; ++i) {
         const double azimuth_rad = view.azimuth_rad - horizontal_of(sources_[i].direction_enu).azimuth_rad;
         const auto seen = front_.between(view.elevation_rad, azimuth_rad, kEndless_m, i);
@@ -135,7 +135,7 @@ sky::models::AirBetween DeferredAir::clear_between(const glm::dvec3& direction_e
         all.passed_rgb = seen.passed_rgb;
         if (i < source_count_) all.added_rgb += sources_[i].rgb * seen.added_rgb;
     }
-    all.added_rgb += night_cd_m2_ * (1.0 - all.passed_rgb);
+    all.added_rgb += even_cd_m2_ * (1.0 - all.passed_rgb);
     return all;
 }
 

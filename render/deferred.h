@@ -55,8 +55,9 @@ class DeferredAir {
     [[nodiscard]] const sky::models::AerialTable& table() const noexcept { return front_; }
     [[nodiscard]] std::size_t source_count() const noexcept { return source_count_; }
     [[nodiscard]] const Source& source(std::size_t i) const noexcept { return sources_[i]; }
-    /// Of endless air with neither Sun nor Moon, linear Rec.709.
-    [[nodiscard]] const glm::dvec3& night_cd_m2() const noexcept { return night_cd_m2_; }
+    /// Of endless air, what is alike on all sides: the dark sky's, and clouds' where they cover. Linear
+    /// Rec.709.
+    [[nodiscard]] const glm::dvec3& even_cd_m2() const noexcept { return even_cd_m2_; }
     /// Fog and the like of the frame, null where there is none, and the light from past it: sky, ground.
     [[nodiscard]] const fog::Veil* veil() const noexcept { return veil_; }
     [[nodiscard]] const glm::dvec3& beyond_veil_cd_m2(bool ground) const noexcept {
@@ -107,7 +108,7 @@ class DeferredAir {
     bool building_ = false;
     std::array<Source, sky::models::AerialTable::kMaxLights> sources_{};
     std::size_t source_count_ = 0;
-    glm::dvec3 night_cd_m2_{0.0};
+    glm::dvec3 even_cd_m2_{0.0};
     const fog::Veil* veil_ = nullptr;
     shaders64::VeilAir front_air_{};
     std::array<glm::dvec3, 2> beyond_veil_cd_m2_{};

@@ -36,7 +36,7 @@ DeferredPass::DeferredPass()
                 {program_.uniform("u_source_enu[1]"), program_.uniform("u_source_rgb[1]")}}},
       haze_g_(program_.uniform("u_haze_g")),
       source_count_(program_.uniform("u_source_count")),
-      night_(program_.uniform("u_night_cd_m2")),
+      even_(program_.uniform("u_even_cd_m2")),
       dither_(program_.uniform("u_dither_codes")),
       centre_(program_.uniform("u_far_centre")),
       right_(program_.uniform("u_far_right")),
@@ -120,7 +120,7 @@ void DeferredPass::prepare(const DeferredAir& air, const CloudFrame& clouds, con
         program_.set(sources_[i].rgb, glm::mat4{glm::dmat4{air.source(i).rgb}});
     }
     program_.set(source_count_, static_cast<float>(air.source_count()));
-    program_.set(night_, glm::vec3{air.night_cd_m2()});
+    program_.set(even_, glm::vec3{air.even_cd_m2()});
     program_.set(dither_, dither ? 1.0F : 0.0F);
     upload_veil(air);
 }

@@ -37,7 +37,7 @@ class DeferredPass {
     ToneUniforms tone_;
     std::array<int, 8> map_;
     std::array<SourceUniforms, 2> sources_;
-    int haze_g_, source_count_, night_, dither_, centre_, right_, up_;
+    int haze_g_, source_count_, even_, dither_, centre_, right_, up_;
     gl::Texture extinction_;
     std::array<gl::Texture, 2> rest_;
     std::array<gl::Texture, 2> haze_;

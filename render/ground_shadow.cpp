@@ -112,6 +112,15 @@ bool GroundShadow::meets(const glm::vec3& direction_enu, float ray_rad, Place& p
     return true;
 }
 
+cloud::ShadowCells GroundShadow::cells(float ray_rad) const noexcept {
+    cloud::ShadowCells cells = map_.as_cells();
+    cells.ray_rad = ray_rad;
+    cells.excess_m = excess_m_;
+    cells.excess = excess_;
+    cells.level_share = static_cast<float>(kEarthRadius_m) / radius_m_;
+    return cells;
+}
+
 double GroundShadow::nearest_m(const cloud::Cone& cone) const noexcept {
     if (!shown_) return 0.0;
     // Straight down, or towards the edge of the cone that is nearest to that.

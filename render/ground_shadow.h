@@ -51,6 +51,8 @@ class GroundShadow {
     [[nodiscard]] float over_mean(const Place& place) const noexcept {
         return map_.along(place.at_m, place.half_m) - map_.mean();
     }
+    /// over_mean() for many rays of one angle at once, until the next update().
+    [[nodiscard]] cloud::ShadowCells cells(float ray_rad) const noexcept;
     /// Of the ground under all of the beam, as it is seen from the eye; 0 where no shadow is told.
     [[nodiscard]] glm::dvec3 seen_sunlit_cd_m2(const DeferredAir& air,
                                                const glm::dvec3& direction_enu) const noexcept;

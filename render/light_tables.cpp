@@ -6,8 +6,10 @@
 #include <numbers>
 #include <utility>
 
+#include "render/colour.h"
 #include "render/night/moon_light.h"
 #include "render/sky/staleness.h"
+#include "render/sky_veil.h"
 
 namespace skyig::render {
 
@@ -49,16 +51,15 @@ bool is_height_jump(double from_m, double to_m) noexcept {
     return std::abs(from_m - to_m) > 200.0 + 0.2 * std::abs(from_m);
 }
 
-/// Over all azimuths, of the source's table; 0 without one.
-double mean_horizon_cd_m2(const LitAir& lit) noexcept {
-    if (lit.view == nullptr) return 0.0;
-    const auto horizon = static_cast<float>(lit.view->horizon_elevation_rad());
-    constexpr std::array<double, 4> kTurns{0.125, 0.375, 0.625, 0.875};
-    double sum_cd_m2 = 0.0;
-    for (const double turn : kTurns)
-        sum_cd_m2 +=
-            static_cast<double>(lit.view->xyz_above(horizon, static_cast<float>(turn * std::numbers::pi)).y);
-    return sum_cd_m2 / static_cast<double>(kTurns.size());
+// Straight down the air adds little, and about what endless air does.
+glm::vec3 land_cd_m2(const SkyLight& light, const LitAir& lit) noexcept {
+    constexpr float kDown_rad = static_cast<float>(-0.5 * std::numbers::pi);
+    const double height_m = std::max(light.eye_height_m, 0.0);
+    const glm::vec3 passes{shaders64::veil_air_passes(-height_m, height_m, light.front_air)};
+    const auto horizon_rad = static_cast<float>(lit.view->horizon_elevation_rad());
+    const glm::vec3 endless = rec709_from_xyz(lit.scale_xyz * lit.view->xyz_above(horizon_rad, 0.0F));
+    const glm::vec3 seen = rec709_from_xyz(lit.scale_xyz * lit.view->xyz_below(kDown_rad, 0.0F));
+    return glm::max(seen - (1.0F - passes) * endless, 0.0F) / glm::max(passes, 1e-6F);
 }
 
 }  // namespace
@@ -207,11 +208,12 @@ bool LightTables::has_jumped(const Scene& scene) const noexcept {
 }
 
 // Of one source: what is left of it below clouds, weighed by what a clear sky would bring.
-void LightTables::shade(const Scene& scene, const CloudShade& clouds, double ground_albedo, LitAir& lit,
+void LightTables::shade(const Scene& scene, const CloudShade& clouds, SkyLight& light, LitAir& lit,
                         Overhead& overhead) const noexcept {
     const double sine = std::sin(lit.source.elevation_rad);
-    const double beam_lux = std::max(sine, 0.0) * air_->direct_sun_xyz(0.0, lit.source.elevation_rad).y;
-    const double sky_lux = air_->ground_diffuse_xyz(lit.source.elevation_rad).y;
+    const glm::dvec3 beam_xyz_lux = std::max(sine, 0.0) * air_->direct_sun_xyz(0.0, lit.source.elevation_rad);
+    const glm::dvec3 sky_xyz_lux = air_->ground_diffuse_xyz(lit.source.elevation_rad);
+    const double beam_lux = beam_xyz_lux.y, sky_lux = sky_xyz_lux.y;
     const double all_lux = std::max(beam_lux + sky_lux, 1e-12);
     const auto mean = [&](const CloudShare& share) {
         return (beam_lux * static_cast<double>(share.beam) + sky_lux * static_cast<double>(share.sky)) /
@@ -219,14 +221,16 @@ void LightTables::shade(const Scene& scene, const CloudShade& clouds, double gro
     };
     const CloudShare ground = clouds.at(0.0, sine);
     const CloudShare eye = clouds.at(scene.eye.height_m, sine);
-    // Air under cover is lit by cloud and ground from all sides: what of its light is no beam's is the mean
-    // of both, not a share of the clear horizon's, which is much less bright than the ground below it.
-    const double diffuse_cd_m2 = 0.5 * (1.0 + ground_albedo) * all_lux / std::numbers::pi;
-    const double horizon_cd_m2 = mean_horizon_cd_m2(lit);
-    const double gain = horizon_cd_m2 > 0.0 ? std::clamp(diffuse_cd_m2 / horizon_cd_m2, 1.0, 4.0) : 1.0;
-    const double covered = 1.0 - static_cast<double>(eye.direct);
-    lit.clouded = {static_cast<float>(mean(eye) * (1.0 + covered * (gain - 1.0))),
-                   static_cast<float>(mean(ground))};
+    // Of air under cover the part that no beam meets is lit by cloud and ground from all sides, with the mean
+    // of both.
+    const double direct = static_cast<double>(eye.direct);
+    const double covered = 1.0 - direct;
+    const glm::dvec3 even_xyz_lux = (static_cast<double>(eye.beam) - direct) * beam_xyz_lux +
+                                    std::max(static_cast<double>(eye.sky) - direct, 0.0) * sky_xyz_lux;
+    const double even = 0.5 * (1.0 + light.ground_albedo) / std::numbers::pi;
+    light.even_cd_m2 += rec709_from_xyz(lit.scale_xyz * glm::vec3{even * even_xyz_lux});
+    lit.clouded = {eye.direct, static_cast<float>(mean(ground)), static_cast<float>(covered)};
+    if (covered > 0.0 && lit.view != nullptr && lit.sea == nullptr) lit.land_cd_m2 = land_cd_m2(light, lit);
     lit.beam_share = ground.direct;
     const double weight = static_cast<double>(lit.scale_xyz.y);
     const double scattered = static_cast<double>(eye.beam - eye.direct);
@@ -259,6 +263,7 @@ SkyLight LightTables::light(const Scene& scene, const Plan& plan,
     SkyLight light;
     light.refraction = refraction;
     light.eye_height_m = scene.eye.height_m;
+    light.front_air = front_air(air_->model(), scene.eye.height_m);
     light.horizon_elevation_rad = refraction.horizon_elevation_rad();
     light.straight_horizon_rad = horizon_elevation_rad(scene.eye.height_m);
     sky::Spectrum diffuse = air_->model().ground_albedo;
@@ -297,8 +302,8 @@ SkyLight LightTables::light(const Scene& scene, const Plan& plan,
             overhead.clear_lux = static_cast<double>(light.night_share * light.night->ground_rgb_lux().y);
             overhead.covered_lux = overhead.clear_lux * static_cast<double>(dark);
         }
-        shade(scene, clouds, light.ground_albedo, light.sun, overhead);
-        shade(scene, clouds, light.ground_albedo, light.moon, overhead);
+        shade(scene, clouds, light, light.sun, overhead);
+        shade(scene, clouds, light, light.moon, overhead);
         light.overhead =
             overhead.clear_lux > 0.0 ? static_cast<float>(overhead.covered_lux / overhead.clear_lux) : dark;
     }

@@ -125,7 +125,7 @@ class LightTables {
         double clear_lux = 0.0;
         double covered_lux = 0.0;
     };
-    void shade(const Scene& scene, const CloudShade& clouds, double ground_albedo, LitAir& lit,
+    void shade(const Scene& scene, const CloudShade& clouds, SkyLight& light, LitAir& lit,
                Overhead& overhead) const noexcept;
     [[nodiscard]] SkySettings fitting(const SkySettings& asked) const noexcept;
 

@@ -245,7 +245,8 @@ std::string_view pass_name(Pass pass) noexcept {
 
 std::string_view thin_name(Thin thin) noexcept {
     constexpr std::array<std::string_view, kThinCount> kNames{
-        "cloud-refresh", "cloud-motion", "dome", "stars", "precipitation", "waves", "glare", "milky-way"};
+        "cloud-refresh", "", "", "", "precipitation", "waves", "glare", "milky-way", "cloud-tones",
+        "cloud-shadows"};
     return kNames[static_cast<std::size_t>(thin)];
 }
 
@@ -255,9 +256,8 @@ Thinned thinnable(const Plan& plan) noexcept {
         would[static_cast<std::size_t>(thin)] = there && !plan.thins(thin);
     };
     note(Thin::kCloudRefresh, plan.needs(Pass::kClouds));
-    note(Thin::kCloudMotion, plan.needs(Pass::kClouds));
-    note(Thin::kDome, plan.needs(Pass::kDome));
-    note(Thin::kStars, plan.needs(Pass::kStars));
+    note(Thin::kCloudTones, plan.needs(Pass::kClouds));
+    note(Thin::kCloudShadows, plan.needs(Pass::kCloudShadows));
     note(Thin::kPrecipitation, plan.needs(Pass::kPrecipitation));
     note(Thin::kWaves, plan.needs(Pass::kWaves));
     note(Thin::kGlare, plan.needs(Pass::kSunGlare) || plan.needs(Pass::kMoonGlare));
@@ -306,9 +306,7 @@ Plan make_plan(const Scene& scene, const Held& held, const sky::RefractionRow& r
     put(plan, Pass::kClouds, {false, "not decided yet"});
     put(plan, Pass::kNearClouds, {false, "not decided yet"});
     put(plan, Pass::kCloudShadows, {false, "not decided yet"});
-    put(plan, Pass::kDome,
-        {true, plan.thins(Thin::kDome) ? "smooth light of all directions, coarser: thinned out"
-                                       : "smooth light of all directions"});
+    put(plan, Pass::kDome, {true, "smooth light of all directions"});
     put(plan, Pass::kWaves, {false, "not decided yet"});
     put(plan, Pass::kStars, {false, "not decided yet"});
     plan.corona_share = smooth_step(kCoronaBegins, kCoronaWhole, scene.sun.unobscured);
@@ -373,7 +371,7 @@ void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bo
     const auto layers = scene.weather.all_clouds();
     const bool any = std::any_of(layers.begin(), layers.end(),
                                  [](const CloudLayer& layer) { return layer.coverage > 0.0; });
-    const bool slower = any && (plan.thins(Thin::kCloudRefresh) || plan.thins(Thin::kCloudMotion));
+    const bool slower = any && (plan.thins(Thin::kCloudRefresh) || plan.thins(Thin::kCloudTones));
     put(plan, Pass::kClouds,
         {any, slower ? "followed more slowly: thinned out" : drawn_models(scene.weather)});
     put(plan, Pass::kNearClouds,
@@ -386,10 +384,11 @@ void plan_clouds(Plan& plan, const Scene& scene, int map_size, int near_size, bo
 
 void plan_cloud_shadows(Plan& plan, const cloud::ShadowMap& map, bool told) noexcept {
     put(plan, Pass::kCloudShadows,
-        !plan.needs(Pass::kClouds) ? Verdict{false, "no layer has any clouds"}
-        : !map.shown()             ? Verdict{false, "neither Sun nor Moon stands high enough to cast any"}
-        : !told ? Verdict{false, "the ground lies in even light: no gaps, or nothing but gaps"}
-                : Verdict{true, "single clouds cast shadows; they ride on the cloud map"});
+        !plan.needs(Pass::kClouds)        ? Verdict{false, "no layer has any clouds"}
+        : plan.thins(Thin::kCloudShadows) ? Verdict{false, kThinnedOut}
+        : !map.shown() ? Verdict{false, "neither Sun nor Moon stands high enough to cast any"}
+        : !told        ? Verdict{false, "the ground lies in even light: no gaps, or nothing but gaps"}
+                       : Verdict{true, "single clouds cast shadows; they ride on the cloud map"});
     plan.passes[static_cast<std::size_t>(Pass::kCloudShadows)].resolution = {
         cloud::ShadowMap::kLevels * cloud::ShadowMap::kCells, cloud::ShadowMap::kCells};
 }
@@ -445,17 +444,10 @@ void plan_stars(Plan& plan, const Scene& scene, const PointBackgrounds& backgrou
     plan.stars.seen_only = !forced;
     plan.stars.twinkle_limit_mag = half_code_mag + 2.5 * std::log10(std::max(flicker, 1e-9));
     plan.stars.twinkle = scene.sky.star_scintillation && brightest_mag < plan.stars.twinkle_limit_mag;
-    const bool thinned = !forced && plan.thins(Thin::kStars);
-    if (thinned) {
-        plan.stars.limit_mag -= kThinnedStars_mag;
-        plan.stars.twinkle = false;
-    }
     if (!scene.stars.enabled || scene.stars.intensity <= 0.0) {
         put(plan, Pass::kStars, {false, "switched off"});
     } else if (outshone) {
         put(plan, Pass::kStars, {false, "the sky outshines every star and planet"});
-    } else if (thinned) {
-        put(plan, Pass::kStars, {true, "some stars outshine the sky; the faintest are thinned out"});
     } else if (plan.stars.twinkle) {
         put(plan, Pass::kStars, {true, "some stars outshine the sky, and twinkle"});
     } else {

@@ -101,11 +101,6 @@ struct Plan {
 /// not count.
 [[nodiscard]] Thinned thinnable(const Plan& plan) noexcept;
 
-/// By how many magnitudes the limit of stars is brighter when they are thinned: a fifth of them is left.
-inline constexpr double kThinnedStars_mag = 1.5;
-/// How many times the budget of errors the dome has when it is thinned.
-inline constexpr double kThinnedDome = 4.0;
-
 /// Part of the streaks that are drawn when they are thinned.
 inline constexpr double kThinnedPrecipitation = 0.5;
 

@@ -41,21 +41,21 @@ inline constexpr std::size_t kPassCount = 27;
 [[nodiscard]] std::string_view pass_name(Pass pass) noexcept;
 
 /// What a frame may leave out where it would else take too long. The numbers stand in recordings: new ones
-/// come last.
+/// come last, and 1 to 3, of things that saved nothing, are not used again.
 enum class Thin {
-    kCloudRefresh,   ///< the cloud map is renewed at a third of its pace
-    kCloudMotion,    ///< its tiles follow the eye in steps four times as large
-    kDome,           ///< smooth light has four times its budget of errors
-    kStars,          ///< those of the faintest 1.5 magnitudes, and that others twinkle
-    kPrecipitation,  ///< half the streaks, each the more opaque
-    kWaves,          ///< resolved waves of the sea
-    kGlare,          ///< the veils round Sun and Moon
-    kMilkyWay,       ///< its structure: even starlight stays
+    kCloudRefresh = 0,   ///< the cloud map is renewed at a third of its pace
+    kPrecipitation = 4,  ///< half the streaks, each the more opaque
+    kWaves = 5,          ///< resolved waves of the sea
+    kGlare = 6,          ///< the veils round Sun and Moon
+    kMilkyWay = 7,       ///< its structure: even starlight stays
+    kCloudTones = 8,     ///< what is seen of clouds follows light, eye and drift every third frame
+    kCloudShadows = 9,   ///< single clouds' shadows on the ground: their mean stays
 };
-inline constexpr std::size_t kThinCount = 8;
+/// One more than the largest number.
+inline constexpr std::size_t kThinCount = 10;
 using Thinned = std::bitset<kThinCount>;
 
-/// As the settings and the status write it: "cloud-refresh".
+/// As the settings and the status write it: "cloud-refresh"; empty for a number that is not used.
 [[nodiscard]] std::string_view thin_name(Thin thin) noexcept;
 
 /// How far the picture may be off, and what is done for measurements.

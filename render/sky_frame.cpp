@@ -59,12 +59,22 @@ ClippedLight clipped_light(const std::array<double, eye::kProbeCount>& probes_cd
     return clipped;
 }
 
+// By day, the more the brighter the clouds that are probed stand out of the sky behind them. Before a usual
+// screen: one adaptation serves all of a rig's.
+double adapted_to_clouds(double adaptation_cd_m2, ToneOperator tone,
+                         const std::array<double, eye::kProbeCount>& over_sky_cd_m2) {
+    DisplaySettings usual;
+    usual.tone = tone;
+    return eye::adaptation_to_bright(usual, adaptation_cd_m2,
+                                     adaptation_cd_m2 + eye::bright_part_cd_m2(over_sky_cd_m2));
+}
+
 // What a target of luminance asks of the dome: the finest there is.
 constexpr Quality kFinest{.error_codes = 0.0, .forced = {}, .thinned = {}};
 
-// What a thinned frame follows of the cloud map, and by how much larger steps.
+// How many times as slowly thinned frames renew the cloud map, and follow what is seen of it.
 constexpr int kThinnedRefresh = 3;
-constexpr float kThinnedMotion = 4.0F;
+constexpr int kThinnedTones = 3;
 
 }  // namespace
 
@@ -133,9 +143,13 @@ void SkyFrame::refresh_clouds(const Scene& scene, double pixel_rad) {
                           ? std::max(quality_.cloud_tiles_a_frame / kThinnedRefresh, 1)
                           : quality_.cloud_tiles_a_frame;
     clouds_.follow(*made_clouds_.maker, scene, cloud_light_, light_, tables_.jumped(), size, tiles);
-    clouds_.step_by(plan_.thins(Thin::kCloudMotion) ? kThinnedMotion : 1.0F);
-    ground_shadow_.update(*made_clouds_.maker, {scene, scene.eye, cloud_light_}, tables_.air(), light_,
-                          tables_.jumped());
+    clouds_.tone_every(plan_.thins(Thin::kCloudTones) ? kThinnedTones : 1);
+    if (plan_.thins(Thin::kCloudShadows)) {
+        ground_shadow_.stop();
+    } else {
+        ground_shadow_.update(*made_clouds_.maker, {scene, scene.eye, cloud_light_}, tables_.air(), light_,
+                              tables_.jumped());
+    }
     clouds_.shade_ground(&ground_shadow_);
     plan_cloud_shadows(plan_, ground_shadow_.map(), ground_shadow_.shown());
     plan_clouds(plan_, scene, size, cloud::NearMap::kSize, clouds_.map().near_map() != nullptr);
@@ -181,11 +195,17 @@ void SkyFrame::take_weather(const Scene& scene) noexcept {
 
 void SkyFrame::adapt(const Scene& scene) {
     eye::LuminanceMean all;
+    std::array<double, eye::kProbeCount> over_sky_cd_m2{};
     for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
         const eye::ProbeDirection& probe = eye::probe_directions()[i];
         const double elevation =
             std::min(light_.horizon_elevation_rad + probe.above_horizon_rad, kZenith_rad);
-        probes_cd_m2_[i] = probed_luminance_cd_m2(elevation, probe.azimuth_rad, i);
+        const glm::vec3 behind = light_.rgb_cd_m2(elevation, probe.azimuth_rad, Side::kByElevation);
+        const auto sky_cd_m2 = static_cast<double>(shaders32::luminance_709(behind));
+        probes_cd_m2_[i] =
+            clouds_.shown() ? shaders64::luminance_709(clouds_.probed(*air_between_, glm::dvec3{behind}, i))
+                            : sky_cd_m2;
+        over_sky_cd_m2[i] = std::max(probes_cd_m2_[i] - sky_cd_m2, 0.0);
         all.add(probes_cd_m2_[i]);
     }
     const DisplaySettings& eye = displays_.front();
@@ -203,24 +223,9 @@ void SkyFrame::adapt(const Scene& scene) {
     double wanted_cd_m2 =
         eye.adapt_to == AdaptationSource::kViewMean ? all.mean_cd_m2() : all.log_average_cd_m2();
     if (eye.adapt_to == AdaptationSource::kSky && clouds_.shown())
-        wanted_cd_m2 = adapted_to_clouds(wanted_cd_m2, eye.tone);
+        wanted_cd_m2 = adapted_to_clouds(wanted_cd_m2, eye.tone, over_sky_cd_m2);
     if (eye.fixed_adaptation_cd_m2 > 0.0) wanted_cd_m2 = eye.fixed_adaptation_cd_m2;
     adaptation_.update(wanted_cd_m2, scene.time_s, tables_.jumped(), eye);
-}
-
-double SkyFrame::adapted_to_clouds(double adaptation_cd_m2, ToneOperator tone) const {
-    std::array<double, eye::kProbeCount> over_sky_cd_m2{};
-    for (std::size_t i = 0; i < eye::kProbeCount; ++i) {
-        const eye::ProbeDirection& probe = eye::probe_directions()[i];
-        const double elevation =
-            std::min(light_.horizon_elevation_rad + probe.above_horizon_rad, kZenith_rad);
-        over_sky_cd_m2[i] = std::max(probes_cd_m2_[i] - luminance_cd_m2(elevation, probe.azimuth_rad), 0.0);
-    }
-    // Before a usual screen: one adaptation serves all of a rig's.
-    DisplaySettings usual;
-    usual.tone = tone;
-    return eye::adaptation_to_bright(usual, adaptation_cd_m2,
-                                     adaptation_cd_m2 + eye::bright_part_cd_m2(over_sky_cd_m2));
 }
 
 void SkyFrame::tone_screens(const Scene& scene, double smallest_pixel_sr) {
@@ -263,12 +268,6 @@ double SkyFrame::luminance_cd_m2(double elevation_rad, double azimuth_rad) const
 double SkyFrame::clouded_luminance_cd_m2(double elevation_rad, double azimuth_rad) const {
     const glm::dvec3 behind{light_.rgb_cd_m2(elevation_rad, azimuth_rad, Side::kByElevation)};
     return shaders64::luminance_709(through_clouds(behind, direction_of({elevation_rad, azimuth_rad})));
-}
-
-double SkyFrame::probed_luminance_cd_m2(double elevation_rad, double azimuth_rad, std::size_t probe) const {
-    if (!clouds_.shown()) return luminance_cd_m2(elevation_rad, azimuth_rad);
-    const glm::dvec3 behind{light_.rgb_cd_m2(elevation_rad, azimuth_rad, Side::kByElevation)};
-    return shaders64::luminance_709(clouds_.probed(*air_between_, behind, probe));
 }
 
 // Adaptation leaves the belt out, so that it may depend on what the eye sees at all.
@@ -328,10 +327,8 @@ void SkyFrame::refresh_dome(double pixel_rad) {
     wanted.veil = veil_.bends_revision();
     const bool at_once = shaded_.tables == 0 || tables_.jumped();
     // A fade that runs is not begun anew for nodes that only could stand better.
-    const bool thinned = plan_.thins(Thin::kDome);
-    const bool lay =
-        at_once || !still_serves(dome_.layout(), wanted) ||
-        (dome_.share() >= 1.0 && (thinned != dome_thinned_ || !still_fits(dome_.layout(), wanted)));
+    const bool lay = at_once || !still_serves(dome_.layout(), wanted) ||
+                     (dome_.share() >= 1.0 && !still_fits(dome_.layout(), wanted));
     const bool replaced = lay || shaded_.tables != tables_.revision();
     const bool turned = std::abs(std::remainder(wanted.second_azimuth_rad - shaded_.moon_from_sun_rad,
                                                 2.0 * std::numbers::pi)) > static_cast<double>(kLightStep);
@@ -346,11 +343,9 @@ void SkyFrame::refresh_dome(double pixel_rad) {
         std::abs(adaptation - shaded_.adaptation_cd_m2) > kAdaptationStep * shaded_.adaptation_cd_m2 ||
         exposure_exponent_ != shaded_.exposure_exponent;
     const bool of_light = target_ != Target::kDisplay;
-    Quality quality = of_light ? kFinest : quality_;
-    if (thinned) quality.error_codes *= kThinnedDome;
+    const Quality& quality = of_light ? kFinest : quality_;
     mesh_azimuth_rad_ = wanted.azimuth_rad;
     if (lay) {
-        dome_thinned_ = thinned;
         bend_.measure(light_, display_tones_, mesh_azimuth_rad_, pixel_rad);
         dome_.lay_out(wanted, bend_, plan_dome(bend_, at_once ? DomeBend::kLeast : dome_.size(), quality));
     }

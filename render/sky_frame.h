@@ -141,10 +141,6 @@ class SkyFrame {
     void tone_screens(const Scene& scene, double smallest_pixel_sr);
     [[nodiscard]] double luminance_cd_m2(double elevation_rad, double azimuth_rad) const;
     [[nodiscard]] double clouded_luminance_cd_m2(double elevation_rad, double azimuth_rad) const;
-    [[nodiscard]] double probed_luminance_cd_m2(double elevation_rad, double azimuth_rad,
-                                                std::size_t probe) const;
-    /// By day, the more the brighter the clouds that are probed stand out of the sky behind them.
-    [[nodiscard]] double adapted_to_clouds(double adaptation_cd_m2, ToneOperator tone) const;
     /// What the veils of a source were laid for.
     struct VeilMade {
         GlareSource source;
@@ -193,7 +189,6 @@ class SkyFrame {
     std::vector<ClippedLight> clipped_;
     double mesh_azimuth_rad_ = 0.0;
     double dome_error_codes_ = 0.0;
-    bool dome_thinned_ = false;
     std::uint64_t triangles_revision_ = 0;
     std::uint64_t vertices_revision_ = 0;
     sky::SeaWaves waves_;

@@ -13,18 +13,31 @@ namespace skyig::render {
 
 namespace {
 
-glm::vec3 xyz_of(const LitAir& lit, double above_horizon_rad, double azimuth_rad, bool ground) {
-    if (lit.view == nullptr) return glm::vec3{0.0F};
+glm::vec3 table_xyz(const LitAir& lit, double above_horizon_rad, double azimuth_rad, bool ground) {
     const auto elevation = static_cast<float>(lit.view->horizon_elevation_rad() + above_horizon_rad);
     const auto azimuth = static_cast<float>(azimuth_rad - lit.source.azimuth_rad);
-    const float share = lit.clouded.share(above_horizon_rad);
-    if (!ground) return share * lit.scale_xyz * lit.view->xyz_above(elevation, azimuth);
+    if (!ground) return lit.view->xyz_above(elevation, azimuth);
     glm::vec3 xyz = lit.view->xyz_below(elevation, azimuth);
     if (lit.sea != nullptr) {
         xyz += lit.sea->xyz(lit.sea->horizon_elevation_rad() + above_horizon_rad, azimuth_rad,
                             lit.source.azimuth_rad);
     }
-    return share * lit.scale_xyz * xyz;
+    return xyz;
+}
+
+// Under cover the clear air before the ground is left out: what stands there instead is
+// SkyLight::even_cd_m2. The sea's own light differs all round; of it as much is taken off as of endless air.
+// \param passes  of the ground's light through that air
+glm::vec3 source_rgb(const LitAir& lit, double above_horizon_rad, double azimuth_rad, bool ground,
+                     const glm::vec3& passes) {
+    if (lit.view == nullptr) return glm::vec3{0.0F};
+    const glm::vec3 clear =
+        rec709_from_xyz(lit.scale_xyz * table_xyz(lit, above_horizon_rad, azimuth_rad, ground));
+    const glm::vec3 shared = lit.clouded.share(above_horizon_rad) * clear;
+    if (!ground || !(lit.clouded.covered > 0.0F)) return shared;
+    if (lit.sea == nullptr) return shared + lit.clouded.of_ground() * passes * lit.land_cd_m2;
+    const glm::vec3 endless = rec709_from_xyz(lit.scale_xyz * table_xyz(lit, 0.0, azimuth_rad, false));
+    return shared + lit.clouded.of_ground() * glm::max(clear - (1.0F - passes) * endless, 0.0F);
 }
 
 // Of the angle between a ray and the ground where it meets it.
@@ -88,12 +101,15 @@ LitBelt lit_belt(const Scene& scene, const night::MilkyWayMap& map, double night
             static_cast<float>(night_share * night::starlight_share(scene.night))};
 }
 
+float CloudedAir::near_part(double above_horizon_rad) noexcept {
+    constexpr double kFade_rad = 0.05;
+    return static_cast<float>(std::exp(-std::abs(above_horizon_rad) / kFade_rad));
+}
+
 float CloudedAir::share(double above_horizon_rad) const noexcept {
     if (at_eye == 1.0F && at_ground == 1.0F) return 1.0F;
-    constexpr double kFade_rad = 0.05;
-    const auto near = static_cast<float>(std::exp(-std::abs(above_horizon_rad) / kFade_rad));
-    const float far = above_horizon_rad >= 0.0 ? 1.0F : at_ground;
-    return far + near * (at_eye - far);
+    const float far = above_horizon_rad >= 0.0 ? 1.0F : (1.0F - covered) * at_ground;
+    return far + near_part(above_horizon_rad) * (at_eye - far);
 }
 
 double SkyLight::straight_elevation_rad(double elevation_rad) const noexcept {
@@ -120,8 +136,14 @@ glm::vec3 SkyLight::covered_rgb_cd_m2(double elevation_rad, double azimuth_rad, 
 glm::vec3 SkyLight::clear_rgb_cd_m2(double straight_rad, double elevation_rad, double azimuth_rad,
                                     bool ground) const noexcept {
     const double above_rad = straight_rad - straight_horizon_rad;
-    const glm::vec3 rgb = rec709_from_xyz(xyz_of(sun, above_rad, azimuth_rad, ground) +
-                                          xyz_of(moon, above_rad, azimuth_rad, ground)) +
+    const bool under = even_cd_m2 != glm::vec3{0.0F};
+    const glm::vec3 passes = under && ground
+                                 ? glm::vec3{shaders64::veil_air_passes(-std::max(eye_height_m, 0.0),
+                                                                        end_m(straight_rad, true), front_air)}
+                                 : glm::vec3{1.0F};
+    const glm::vec3 of_air = ground ? 1.0F - passes : glm::vec3{CloudedAir::near_part(above_rad)};
+    const glm::vec3 rgb = source_rgb(sun, above_rad, azimuth_rad, ground, passes) +
+                          source_rgb(moon, above_rad, azimuth_rad, ground, passes) + of_air * even_cd_m2 +
                           dark_sky(*this, straight_rad, azimuth_rad, ground) +
                           flash_cd_m2(*this, elevation_rad, ground);
     return ground && film > 0.0 ? rgb + film_cd_m2(*this, elevation_rad, azimuth_rad) : rgb;
@@ -211,7 +233,7 @@ SlopeLight SkyLight::of_slopes(double elevation_rad, double azimuth_rad) const n
         if (lit->view == nullptr || lit->sea == nullptr) continue;
         const auto slopes = lit->sea->of_slopes(lit->sea->horizon_elevation_rad() + above_rad, azimuth_rad,
                                                 lit->source.azimuth_rad);
-        const float share = lit->clouded.share(above_rad);
+        const float share = lit->clouded.share(above_rad) + lit->clouded.of_ground();
         sum.east += rec709_from_xyz(share * lit->scale_xyz * slopes.east_xyz);
         sum.north += rec709_from_xyz(share * lit->scale_xyz * slopes.north_xyz);
         sum.bend_cd_m2 += share * lit->scale_xyz.y * slopes.bend;

@@ -24,9 +24,16 @@ namespace skyig::render {
 struct CloudedAir {
     float at_eye = 1.0F;
     float at_ground = 1.0F;
+    /// Part of the beam that does not come to the eye: so much of the air there is lit from all sides instead
+    /// (SkyLight::even_cd_m2), which `at_eye` leaves out, and of_ground() tells what it does to the ground.
+    float covered = 0.0F;
 
-    /// Exactly 1 without clouds; continuous.
+    /// Of the clear table's light. Exactly 1 without clouds; continuous.
     [[nodiscard]] float share(double above_horizon_rad) const noexcept;
+    /// Of the ground's own light, without the air before it, what share() leaves out.
+    [[nodiscard]] float of_ground() const noexcept { return covered * at_ground; }
+    /// Of a direction, how much is air of the eye's height: 1 at the horizon.
+    [[nodiscard]] static float near_part(double above_horizon_rad) noexcept;
 };
 
 /// A light source and the table of the air and ground it lights.
@@ -40,6 +47,9 @@ struct LitAir {
     CloudedAir clouded;
     /// Of the beam that glitters on the ground, what clouds leave.
     float beam_share = 1.0F;
+    /// Of land under all of a clear sky's light, without the air before it, linear Rec.709; told where clouds
+    /// cover.
+    glm::vec3 land_cd_m2{0.0F};
 };
 
 /// What the Milky Way adds to even starlight.
@@ -89,6 +99,9 @@ struct SkyLight {
     const night::NightSky* night = nullptr;
     float night_share = 1.0F;
     CloudedAir night_clouded;
+    /// Of endless air below clouds, which their base and the ground light alike from all sides: it has their
+    /// hue, not the clear sky's. Linear Rec.709; 0 without clouds.
+    glm::vec3 even_cd_m2{0.0F};
     /// Mean light of the sky and the clouds that cover it over that of the clear sky; exactly 1 without
     /// clouds.
     float overhead = 1.0F;
@@ -97,7 +110,7 @@ struct SkyLight {
     const fog::Veil* veil = nullptr;
     /// Rises when the veil shows otherwise.
     std::uint64_t veil_revision = 0;
-    /// Before a veil far away.
+    /// The clear air, before a veil far away and before the ground.
     shaders64::VeilAir front_air{};
     /// What lightning adds to everything.
     cloud::FlashLight flash;

@@ -96,7 +96,6 @@ void SkyVeil::lay(const Scene& scene, const sky::AirTables& air, double smallest
     if (!veil_.empty()) {
         veil_.light(veil_sources(scene, air, light, veil_.top_m()));
         light.veil = &veil_;
-        light.front_air = front_air(air.model(), scene.eye.height_m);
         now = fog::VeilMark(veil_);
     }
     if (now.differs(shown_, smallest)) {

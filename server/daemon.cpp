@@ -219,6 +219,8 @@ struct Reload {
     Log& log;
     /// No machine of a rig.
     bool alone;
+    /// Settings were taken, and no frame has been drawn with them yet.
+    bool taken = false;
 
     /// Takes what can change while frames go on.
     void take(const config::Config& before) const {
@@ -234,7 +236,8 @@ struct Reload {
     }
 
     /// Once a frame: reads settings anew when that is asked for, and takes them when they have been read.
-    void look(bool asked, FrameLoop& loop) const {
+    void look(bool asked, FrameLoop& loop) {
+        if (std::exchange(taken, false)) service.ready("settings taken");
         if (asked) {
             service.reloading(clock.monotonic_ns());
             settings.read_anew();
@@ -242,14 +245,14 @@ struct Reload {
         const LiveSettings::Result result =
             settings.take([this](const config::Config& before) { take(before); }, log);
         if (result == LiveSettings::Result::kNone) return;
-        const bool taken = result == LiveSettings::Result::kTaken;
+        taken = result == LiveSettings::Result::kTaken;
         loop.note_settings(taken);
-        service.ready(taken ? "settings taken" : "settings refused");
+        if (!taken) service.ready("settings refused");
     }
 };
 
 /// A replay is the same each time: it listens to no new settings.
-void run_frames(FrameLoop& loop, StopSignal& stop, const Reload& reload, bool replays) {
+void run_frames(FrameLoop& loop, StopSignal& stop, Reload reload, bool replays) {
     loop.run([&] {
         const bool ends = stop.requested();
         reload.look(stop.reload_requested() && !replays, loop);
@@ -322,6 +325,7 @@ void run(const DaemonOptions& options, const config::Config& start, const config
     loop.warm_up();
     running = &loop;
     service.ready(outside.heard(options, config));
+    painter.before_anew([&service] { service.frame_takes_long(); });
     const std::int64_t cpu_before_ns = clock.processor_ns();
     run_frames(loop, stop, {settings, service, clock, world, painter, log, !in_rig},
                !options.replay_path.empty());

@@ -137,7 +137,10 @@ void FrameLoop::take_input(const FramePacer::Slot& slot, status::FrameParts& tim
 
 void FrameLoop::hand_out(const render::Scene& scene) {
     if (!parts_.painter.showed()) return;
-    if (parts_.images != nullptr && frame_number_ % image_every_ == 0) hand_out_images(scene);
+    const bool written = frame_number_ % image_every_ == 0;
+    // Who draws scenes itself sees all of a replay, so that files do not depend on how many are wanted.
+    const bool seen = parts_.images != nullptr && parts_.images->takes_scenes() && parts_.pace.replays();
+    if (parts_.images != nullptr && (written || seen)) hand_out_images(scene, written);
     if (parts_.hashes != nullptr) hash_images();
     if (parts_.preview == nullptr) return;
     parts_.preview->offer(
@@ -259,9 +262,11 @@ void FrameLoop::hash_images() {
     }
 }
 
-void FrameLoop::hand_out_images(const render::Scene& scene) {
-    ImageWriter::Frame* images = parts_.images->try_acquire();
+void FrameLoop::hand_out_images(const render::Scene& scene, bool written) {
+    ImageWriter::Frame* images =
+        parts_.pace.replays() ? parts_.images->acquire() : parts_.images->try_acquire();
     if (images == nullptr) return;
+    images->written = written;
     images->number = frame_number_;
     if (parts_.images->takes_scenes()) images->scene = scene;
     for (std::size_t channel = 0; channel < images->channels.size(); ++channel)
@@ -290,7 +295,7 @@ void FrameLoop::watch(const FramePacer::Slot& slot) {
 void FrameLoop::tell_thinning(Overload::Step step) {
     if (step == Overload::Step::kNone) return;
     const Overload::State& state = overload_->state();
-    const std::string_view what = config::kThinningNames[static_cast<std::size_t>(state.last_thing)];
+    const std::string_view what = config::thinning_name(static_cast<config::Thinning>(state.last_thing));
     if (step == Overload::Step::kThinned) {
         parts_.log.limited("thinned", kRemindAfter_s, Severity::kNotice,
                            "leaves out {}: a frame takes {:.1f} of {:.1f} ms", what,

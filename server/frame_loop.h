@@ -94,7 +94,7 @@ class FrameLoop {
     void take_input(const FramePacer::Slot& slot, status::FrameParts& times, Stopwatch& stopwatch);
     void draw(const render::Scene& scene, Stopwatch& stopwatch, status::FrameParts& times);
     void hand_out(const render::Scene& scene);
-    void hand_out_images(const render::Scene& scene);
+    void hand_out_images(const render::Scene& scene, bool written);
     void tell_host_of_pictures(std::int64_t first_utc_ns, std::int64_t last_utc_ns);
     void close_frame(const FramePacer::Slot& slot, const status::FrameParts& times);
     void tell_thinning(Overload::Step step);

@@ -55,7 +55,7 @@ status::Facts FrameLoop::facts() const {
     facts.rate_hz = config_.daemon.rate_hz;
     facts.pace = pace_name(config_.daemon.pacing);
     for (const config::Thinning thinning : config_.overload.order)
-        facts.thinning_order.emplace_back(config::kThinningNames[static_cast<std::size_t>(thinning)]);
+        facts.thinning_order.emplace_back(config::thinning_name(thinning));
     for (const config::Channel& channel : config_.channels) {
         facts.channels.push_back(channel.name);
         if (config_.rig) facts.channel_nodes.push_back(channel.node);

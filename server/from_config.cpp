@@ -246,19 +246,17 @@ render::DisplaySettings display_settings(const config::Config& config) {
 
 namespace {
 
-static_assert(config::kThinningNames.size() == render::kThinCount &&
-                  static_cast<int>(config::Thinning::kCloudRefresh) ==
-                      static_cast<int>(render::Thin::kCloudRefresh) &&
-                  static_cast<int>(config::Thinning::kCloudMotion) ==
-                      static_cast<int>(render::Thin::kCloudMotion) &&
-                  static_cast<int>(config::Thinning::kDome) == static_cast<int>(render::Thin::kDome) &&
-                  static_cast<int>(config::Thinning::kStars) == static_cast<int>(render::Thin::kStars) &&
-                  static_cast<int>(config::Thinning::kPrecipitation) ==
-                      static_cast<int>(render::Thin::kPrecipitation) &&
-                  static_cast<int>(config::Thinning::kWaves) == static_cast<int>(render::Thin::kWaves) &&
-                  static_cast<int>(config::Thinning::kGlare) == static_cast<int>(render::Thin::kGlare) &&
-                  static_cast<int>(config::Thinning::kMilkyWay) == static_cast<int>(render::Thin::kMilkyWay),
-              "one order of what can be left out in settings and plan");
+constexpr bool same(config::Thinning a, render::Thin b) {
+    return static_cast<int>(a) == static_cast<int>(b);
+}
+static_assert(same(config::Thinning::kCloudRefresh, render::Thin::kCloudRefresh) &&
+                  same(config::Thinning::kPrecipitation, render::Thin::kPrecipitation) &&
+                  same(config::Thinning::kWaves, render::Thin::kWaves) &&
+                  same(config::Thinning::kGlare, render::Thin::kGlare) &&
+                  same(config::Thinning::kMilkyWay, render::Thin::kMilkyWay) &&
+                  same(config::Thinning::kCloudTones, render::Thin::kCloudTones) &&
+                  same(config::Thinning::kCloudShadows, render::Thin::kCloudShadows),
+              "one number for what can be left out in settings and plan");
 
 }  // namespace
 

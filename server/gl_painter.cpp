@@ -65,7 +65,10 @@ void GlPainter::prepare(const render::Scene& scene) {
     }
     if (!seat_ && frames_to_retry_-- > 0) return;
     try {
-        if (!seat_) sit_down();
+        if (!seat_) {
+            if (before_anew_) before_anew_();
+            sit_down();
+        }
         prepare_seat(scene);
     } catch (const std::exception&) {
         // No memory, or the device is not back yet.

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "server/channel_guard.h"
@@ -26,6 +28,8 @@ class GlPainter final : public Painter {
     void make_ready();
     /// What frames may be off by from the next one on, which takes as long as a start: all is made anew.
     void take_quality(const render::Quality& quality) noexcept;
+    /// Called before a frame in which all is made anew, for new quality or after a reset.
+    void before_anew(std::function<void()> told) { before_anew_ = std::move(told); }
     void thin(render::Thinned thinned) override { thinned_ = thinned; }
     [[nodiscard]] render::Thinned thinnable() const override { return thinnable_; }
     /// The first call may throw; later it does not: what cannot be had of the device is as its loss. After a
@@ -68,6 +72,7 @@ class GlPainter final : public Painter {
     void try_to_draw(std::size_t channel);
 
     GlSeatSettings settings_;
+    std::function<void()> before_anew_;
     std::unique_ptr<GlSeat> seat_;  // none while the device cannot be had
     std::string description_;
     std::array<render::PlannedPass, render::kPassCount> passes_{};

@@ -6,7 +6,7 @@
 
 namespace skyig::server {
 
-ImageWriter::ImageWriter(Settings settings, WriteFile write_file)
+ImageWriter::ImageWriter(Settings settings, Files files)
     : settings_(std::move(settings)), frames_(settings_.buffers) {
     free_.reserve(frames_.size());
     queue_.reserve(frames_.size());
@@ -20,9 +20,9 @@ ImageWriter::ImageWriter(Settings settings, WriteFile write_file)
         }
     }
     // What it holds may be bound to the thread that uses it, as an OpenGL context is.
-    thread_ = std::thread([this, writes = std::move(write_file)]() mutable {
-        const WriteFile write = std::move(writes);
-        run(write);
+    thread_ = std::thread([this, made = std::move(files)]() mutable {
+        const Files used = std::move(made);
+        run(used);
     });
 }
 
@@ -36,6 +36,16 @@ ImageWriter::Frame* ImageWriter::try_acquire() {
         ++counts_.skipped;
         return nullptr;
     }
+    return take_free();
+}
+
+ImageWriter::Frame* ImageWriter::acquire() {
+    std::unique_lock lock(mutex_);
+    freed_.wait(lock, [this] { return !free_.empty(); });
+    return take_free();
+}
+
+ImageWriter::Frame* ImageWriter::take_free() noexcept {
     Frame* frame = free_.back();
     free_.pop_back();
     return frame;
@@ -68,7 +78,7 @@ std::string ImageWriter::first_error() const {
     return first_error_;
 }
 
-void ImageWriter::run(const WriteFile& write_file) {
+void ImageWriter::run(const Files& files) {
     std::unique_lock lock(mutex_);
     for (;;) {
         wake_.wait(lock, [this] { return finishing_ || !queue_.empty(); });
@@ -76,9 +86,13 @@ void ImageWriter::run(const WriteFile& write_file) {
         Frame* frame = queue_.front();
         queue_.erase(queue_.begin());
         lock.unlock();
-        write(*frame, write_file);
+        if (frame->written)
+            write(*frame, files.write);
+        else
+            files.see(*frame);
         lock.lock();
         free_.push_back(frame);
+        freed_.notify_one();
     }
 }
 

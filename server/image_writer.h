@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "render/channel.h"
@@ -15,8 +16,8 @@
 
 namespace skyig::server {
 
-/// The frame loop never waits for a disk: when no buffer is free, that frame's images are skipped and
-/// counted.
+/// A live frame loop never waits for a disk: when no buffer is free, that frame's images are skipped and
+/// counted. A replay, whose files may not depend on how fast it is drawn, waits.
 class ImageWriter {
   public:
     /// What the writer is handed of a frame.
@@ -31,11 +32,20 @@ class ImageWriter {
         std::vector<std::vector<std::byte>> channels;
         /// Where scenes are taken.
         render::Scene scene;
+        /// False: the scene comes before one that is written, and is only seen. Clouds and eyes have a past.
+        bool written = true;
     };
 
     /// Writes one channel's image; false and one line in `error` when it cannot.
     using WriteFile = std::function<bool(const std::string& path, const Frame& frame, std::size_t channel,
                                          std::string& error)>;
+    /// A frame that is not written.
+    using SeeFrame = std::function<void(const Frame& frame)>;
+
+    struct Files {
+        WriteFile write;
+        SeeFrame see = [](const Frame&) {};
+    };
 
     struct Settings {
         std::string directory;
@@ -54,8 +64,10 @@ class ImageWriter {
     };
 
     /// Files are named directory/CHANNEL_NNNNNN.extension after the channel and the frame's number.
-    /// \param write_file  called, and destroyed, on the writer's thread alone
-    ImageWriter(Settings settings, WriteFile write_file);
+    /// \param files  called, and destroyed, on the writer's thread alone
+    ImageWriter(Settings settings, Files files);
+    ImageWriter(Settings settings, WriteFile write_file)
+        : ImageWriter(std::move(settings), Files{std::move(write_file)}) {}
     /// Finishes.
     ~ImageWriter();
     ImageWriter(const ImageWriter&) = delete;
@@ -67,6 +79,8 @@ class ImageWriter {
     /// A buffer to fill, or null when all are under way (the frame then counts as skipped). Does not block on
     /// I/O.
     [[nodiscard]] Frame* try_acquire();
+    /// The same, but waits until there is one.
+    [[nodiscard]] Frame* acquire();
     /// Hands a filled buffer to the writing thread.
     void submit(Frame* frame);
     /// Returns when everything submitted has been written; nothing may be submitted afterwards.
@@ -77,13 +91,15 @@ class ImageWriter {
     [[nodiscard]] std::string first_error() const;
 
   private:
-    void run(const WriteFile& write_file);
+    [[nodiscard]] Frame* take_free() noexcept;
+    void run(const Files& files);
     void write(const Frame& frame, const WriteFile& write_file);
 
     const Settings settings_;
     std::vector<Frame> frames_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
+    std::condition_variable freed_;
     std::vector<Frame*> free_;
     std::vector<Frame*> queue_;  ///< oldest first
     Counts counts_;

@@ -35,11 +35,24 @@ class LightFiles {
         return render::output::write_light(path, shape.width_px, shape.height_px, rgb_cd_m2_, error);
     }
 
+    void see(const ImageWriter::Frame& frame) {
+        try {
+            prepare(frame);
+        } catch (const std::exception&) {
+            // The next file says what is wrong.
+            painter_.reset();
+        }
+    }
+
   private:
-    void draw(const ImageWriter::Frame& frame, std::size_t channel) {
+    void prepare(const ImageWriter::Frame& frame) {
         if (!painter_) painter_ = std::make_unique<GlPainter>(settings_);
         if (prepared_ != frame.number) painter_->prepare(frame.scene);
         prepared_ = frame.number;
+    }
+
+    void draw(const ImageWriter::Frame& frame, std::size_t channel) {
+        prepare(frame);
         const render::Channel& shape = settings_.channels[channel];
         rgb_cd_m2_.resize(static_cast<std::size_t>(shape.width_px) *
                           static_cast<std::size_t>(shape.height_px) * 3);
@@ -56,15 +69,14 @@ class LightFiles {
 
 }  // namespace
 
-ImageWriter::WriteFile light_files(const config::Config& config) {
+ImageWriter::Files light_files(const config::Config& config) {
     auto files = std::make_shared<LightFiles>(GlSeatSettings{.channels = render_channels(config),
                                                              .display = display_settings(config),
                                                              .quality = quality(config),
                                                              .target = render::Target::kLuminance});
-    return [files = std::move(files)](const std::string& path, const ImageWriter::Frame& frame,
-                                      std::size_t channel, std::string& error) {
-        return files->write(path, frame, channel, error);
-    };
+    return {[files](const std::string& path, const ImageWriter::Frame& frame, std::size_t channel,
+                    std::string& error) { return files->write(path, frame, channel, error); },
+            [files](const ImageWriter::Frame& frame) { files->see(frame); }};
 }
 
 }  // namespace skyig::server

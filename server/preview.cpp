@@ -1,5 +1,7 @@
 #include "server/preview.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <exception>
 #include <new>
@@ -34,8 +36,10 @@ Preview::~Preview() {
 
 void Preview::offer(std::int64_t now_ns, const ReadBack& read_back) {
     const auto interval_ns = static_cast<std::int64_t>(kNsPerS / settings_.rate_hz);
-    bool any = false;
-    for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const std::size_t most = (slots_.size() + 3) / 4;
+    std::size_t taken = 0;
+    for (std::size_t tried = 0; tried < slots_.size() && taken < most; ++tried) {
+        const std::size_t i = (next_ + tried) % slots_.size();
         Slot& slot = *slots_[i];
         if (channels_[i].elsewhere) continue;
         if (now_ns - slot.asked_ns.load(std::memory_order_relaxed) > kAskedFor_ns) continue;
@@ -50,9 +54,9 @@ void Preview::offer(std::int64_t now_ns, const ReadBack& read_back) {
         const std::scoped_lock lock(mutex_);
         std::swap(slot.rgba, frame_);
         slot.full = true;
-        any = true;
+        if (++taken == most) next_ = i + 1;
     }
-    if (any) filled_.notify_one();
+    if (taken > 0) filled_.notify_one();
 }
 
 Preview::Picture Preview::newest(std::size_t channel, std::int64_t now_ns) {
@@ -74,6 +78,9 @@ bool Preview::any_full() const noexcept {
 }
 
 void Preview::run() {
+    // Frames come first where threads share processors: on Linux this is of the thread that calls.
+    constexpr int kYields = 10;
+    (void)::setpriority(PRIO_PROCESS, 0, kYields);
     std::unique_lock lock(mutex_);
     while (true) {
         filled_.wait(lock, [this] { return stopping_ || any_full(); });
@@ -110,16 +117,25 @@ void Preview::shrink(const render::Channel& channel, int factor) {
     const std::size_t columns = static_cast<std::size_t>(channel.width_px) / step;
     const std::size_t rows = std::max<std::size_t>(1, static_cast<std::size_t>(channel.height_px) / step);
     const std::size_t tall = std::min(step, static_cast<std::size_t>(channel.height_px));
-    std::size_t to = 0;
+    const float inverse = 1.0F / static_cast<float>(tall * step);
+    const std::size_t wide = columns * step * 4;
+    sums_.resize(wide);
+    std::byte* to = working_.data();
     for (std::size_t row = 0; row < rows; ++row) {
-        for (std::size_t column = 0; column < columns; ++column) {
+        std::fill(sums_.begin(), sums_.end(), 0U);
+        for (std::size_t y = 0; y < tall; ++y) {
+            const std::byte* from = &working_[(row * step + y) * stride];
+            for (std::size_t i = 0; i < wide; ++i)
+                sums_[i] += std::to_integer<std::uint32_t>(from[i]);
+        }
+        const std::uint32_t* sum = sums_.data();
+        for (std::size_t column = 0; column < columns; ++column, sum += 4 * step) {
             for (std::size_t component = 0; component < 4; ++component) {
-                std::size_t sum = 0;
-                for (std::size_t y = 0; y < tall; ++y)
-                    for (std::size_t x = 0; x < step; ++x)
-                        sum += std::to_integer<std::size_t>(
-                            working_[(row * step + y) * stride + (column * step + x) * 4 + component]);
-                working_[to++] = static_cast<std::byte>((sum + tall * step / 2) / (tall * step));
+                std::uint32_t all = 0;
+                for (std::size_t x = 0; x < step; ++x)
+                    all += sum[x * 4 + component];
+                *to++ =
+                    static_cast<std::byte>(static_cast<unsigned>(static_cast<float>(all) * inverse + 0.5F));
             }
         }
     }

@@ -44,8 +44,8 @@ class Preview {
     Preview(Preview&&) = delete;
     Preview& operator=(Preview&&) = delete;
 
-    /// For the frame loop, after a frame is drawn: takes those channels that are asked for and due. Never
-    /// waits for the encoder.
+    /// For the frame loop, after a frame is drawn: takes of those channels that are asked for and due a
+    /// quarter of all, rounded up, so that no frame reads back all of a rig. Never waits for the encoder.
     void offer(std::int64_t now_ns, const ReadBack& read_back);
 
     struct Picture {
@@ -77,10 +77,12 @@ class Preview {
     Settings settings_;
     Encode encode_;
     std::vector<std::unique_ptr<Slot>> slots_;
-    std::vector<std::byte> frame_;    // the frame loop's
-    std::vector<std::byte> working_;  // the thread's
+    std::vector<std::byte> frame_;     // the frame loop's
+    std::vector<std::byte> working_;   // the thread's
+    std::vector<std::uint32_t> sums_;  // likewise
     std::string file_;
-    std::mutex mutex_;  // of the slots' rgba, full, picture, and of stopping_
+    std::size_t next_ = 0;  // channel that offer() looks at first
+    std::mutex mutex_;      // of the slots' rgba, full, picture, and of stopping_
     std::condition_variable filled_;
     bool stopping_ = false;
     std::thread thread_;

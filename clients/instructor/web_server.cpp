@@ -26,6 +26,8 @@ constexpr std::int64_t kMs_ns = 1'000'000;
 constexpr int kSendBuffer_bytes = 256 * 1024;
 /// So many rates of messages thrown away end a connection.
 constexpr double kRatesThrownAway = 10.0;
+/// How long nobody new is taken when no descriptor is left.
+constexpr std::int64_t kNoDescriptors_ns = 100 * kMs_ns;
 /// How long a client may take to end after it was told to.
 constexpr std::int64_t kLinger_ns = 500 * kMs_ns;
 
@@ -81,7 +83,7 @@ WebServer::~WebServer() {
 
 void WebServer::watch() {
     events_.clear();
-    events_.push_back({listener_.socket.get(), POLLIN, 0});
+    events_.push_back({clock_.monotonic_ns() < deaf_until_ns_ ? -1 : listener_.socket.get(), POLLIN, 0});
     for (const auto& client : clients_) {
         const bool writes = !client->waiting.empty();
         // Who is to be sent a page has said all that is of interest.
@@ -109,7 +111,12 @@ void WebServer::take_new() {
     // Who connects without end must not keep the others waiting.
     for (int i = 0; i < kBacklog; ++i) {
         transport::FileDescriptor socket = transport::accept_tcp(listener_);
-        if (!socket) return;
+        if (!socket) {
+            // Without descriptors the listener would be ready for ever.
+            if (errno != EAGAIN && errno != ECONNABORTED)
+                deaf_until_ns_ = clock_.monotonic_ns() + kNoDescriptors_ns;
+            return;
+        }
         ++counts_.connections;
         make_room();
         ::setsockopt(socket.get(), SOL_SOCKET, SO_SNDBUF, &kSendBuffer_bytes, sizeof(kSendBuffer_bytes));
@@ -212,11 +219,12 @@ void WebServer::refuse(Client& client, Refusal refusal) {
 }
 
 void WebServer::upgrade(Client& client, const HttpRequest& request) {
-    const std::string_view key = server::status::field(request, "sec-websocket-key");
-    if (request.method != "GET" || key.empty() ||
-        server::status::field(request, "sec-websocket-version") != "13") {
+    if (const Handshake asked = check_handshake(request); asked != Handshake::kGood) {
         ++counts_.refused_bad;
-        answer(client, server::status::line_answer(400, "a WebSocket of version 13 is opened here"), true);
+        const int status = asked == Handshake::kBad ? 400 : 426;
+        HttpAnswer no = server::status::line_answer(status, "a WebSocket of version 13 is opened here");
+        no.more_fields = "Sec-WebSocket-Version: 13\r\n";
+        answer(client, no, true);
         return;
     }
     if (const Refusal refusal = check_upgrade(request, rules_); refusal != Refusal::kNone) {
@@ -235,7 +243,7 @@ void WebServer::upgrade(Client& client, const HttpRequest& request) {
     push(client, std::make_shared<const std::string>(
                      "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                      "Sec-WebSocket-Accept: " +
-                     accept_key(key) + "\r\n\r\n"));
+                     accept_key(server::status::field(request, "sec-websocket-key")) + "\r\n\r\n"));
     for (const std::string& text : handlers_.greeting())
         push(client, std::make_shared<const std::string>(make_frame(Opcode::kText, text)));
     // What came with the head is the first of its frames.

@@ -154,6 +154,7 @@ class WebServer {
     Handlers handlers_;
     std::vector<std::unique_ptr<Client>> clients_;
     std::vector<pollfd> events_;
+    std::int64_t deaf_until_ns_ = 0;
     WebCounts counts_;
 };
 

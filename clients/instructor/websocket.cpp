@@ -9,6 +9,7 @@ namespace skyig::clients::instructor {
 
 namespace {
 
+constexpr std::string_view kBase64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr std::string_view kGuid = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11";
 constexpr std::uint8_t kFinal = 0x80;
 constexpr std::uint8_t kReserved = 0x70;
@@ -17,8 +18,29 @@ constexpr std::uint8_t kShortest = 125;
 constexpr std::uint8_t kTwoBytes = 126;
 constexpr std::size_t kMaskBytes = 4;
 
+/// Whether a list of words (RFC 9110 5.6.1) holds one, whatever its capitals.
+bool lists(std::string_view list, std::string_view word) noexcept {
+    while (!list.empty()) {
+        const std::size_t end = std::min(list.find(','), list.size());
+        std::string_view one = list.substr(0, end);
+        while (one.starts_with(' ') || one.starts_with('\t'))
+            one.remove_prefix(1);
+        while (one.ends_with(' ') || one.ends_with('\t'))
+            one.remove_suffix(1);
+        if (server::status::same_word(one, word)) return true;
+        list.remove_prefix(std::min(end + 1, list.size()));
+    }
+    return false;
+}
+
+/// 16 bytes in base64.
+bool is_key(std::string_view key) noexcept {
+    constexpr std::size_t kDigits = 22;
+    return key.size() == kDigits + 2 && key.ends_with("==") &&
+           key.substr(0, kDigits).find_first_not_of(kBase64) == std::string_view::npos;
+}
+
 std::string base64(std::span<const std::uint8_t> bytes) {
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     for (std::size_t at = 0; at < bytes.size(); at += 3) {
         const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
@@ -26,7 +48,7 @@ std::string base64(std::span<const std::uint8_t> bytes) {
         for (std::size_t i = 0; i < 3; ++i)
             group = group << 8U | (i < count ? bytes[at + i] : 0U);
         for (std::size_t i = 0; i < 4; ++i)
-            text += i <= count ? kDigits[group >> (18U - 6U * static_cast<unsigned>(i)) & 0x3FU] : '=';
+            text += i <= count ? kBase64[group >> (18U - 6U * static_cast<unsigned>(i)) & 0x3FU] : '=';
     }
     return text;
 }
@@ -46,6 +68,15 @@ bool is_control(Opcode opcode) noexcept {
 }
 
 }  // namespace
+
+Handshake check_handshake(const server::status::HttpRequest& request) noexcept {
+    using server::status::field;
+    if (request.method != "GET" || request.version != "HTTP/1.1" ||
+        !lists(field(request, "upgrade"), "websocket") || !lists(field(request, "connection"), "upgrade") ||
+        !is_key(field(request, "sec-websocket-key")))
+        return Handshake::kBad;
+    return field(request, "sec-websocket-version") == "13" ? Handshake::kGood : Handshake::kOtherVersion;
+}
 
 std::string accept_key(std::string_view key) {
     return base64(sha1(std::string(key).append(kGuid)));

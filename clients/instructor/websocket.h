@@ -8,7 +8,13 @@
 #include <string>
 #include <string_view>
 
+#include "server/status/http.h"
+
 namespace skyig::clients::instructor {
+
+/// How a request to open a WebSocket stands (4.2.1).
+enum class Handshake : std::uint8_t { kGood, kBad, kOtherVersion };
+[[nodiscard]] Handshake check_handshake(const server::status::HttpRequest& request) noexcept;
 
 /// What Sec-WebSocket-Accept says to a Sec-WebSocket-Key (4.2.2).
 [[nodiscard]] std::string accept_key(std::string_view key);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -19,15 +20,18 @@ namespace skyig::clients {
 namespace {
 
 /// What is not of a family: it draws.
-constexpr std::string_view kFrame = "frame";
-constexpr std::string_view kFrameWhat = "frames a second by picture size and scene, and what thinning saves";
+using NameAndWhat = std::pair<std::string_view, std::string_view>;
+constexpr std::array<NameAndWhat, 3> kDrawing{
+    {{"frame", "frames a second by picture size and scene"},
+     {"thinning", "what each thing that [overload] may leave out saves, by scene"},
+     {"preview", "what reading back and previews of three channels add to frames"}}};
 
 int list_families(bool json) {
     std::string text;
-    std::vector<std::pair<std::string_view, std::string_view>> all;
+    std::vector<NameAndWhat> all;
     for (const bench::Family& family : bench::families())
         all.emplace_back(family.name, family.what);
-    all.emplace_back(kFrame, kFrameWhat);
+    all.insert(all.end(), kDrawing.begin(), kDrawing.end());
     for (const auto& [name, what] : all) {
         if (json) {
             text += fmt::format("{}{{\"family\": \"{}\", \"what\": \"{}\"}}", text.empty() ? "" : ",\n ",
@@ -43,8 +47,9 @@ int list_families(bool json) {
 int unknown_family(const std::string& name) {
     std::string known;
     for (const bench::Family& family : bench::families())
-        known += fmt::format("{}, ", family.name);
-    known += kFrame;
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", family.name);
+    for (const NameAndWhat& drawing : kDrawing)
+        known += fmt::format(", {}", drawing.first);
     fmt::print(stderr, "skyig: bench: there is no family '{}'; there are: {}\n", name, known);
     return 2;
 }

@@ -10,7 +10,9 @@
 #include "clients/skyig/cloud.h"
 #include "clients/skyig/decode.h"
 #include "clients/skyig/ephem.h"
-#include "clients/skyig/frame_rates.h"
+#include "clients/skyig/frame/preview_cost.h"
+#include "clients/skyig/frame/rates.h"
+#include "clients/skyig/frame/thinning.h"
 #include "clients/skyig/host.h"
 #include "clients/skyig/latency/latency.h"
 #include "clients/skyig/metar.h"
@@ -27,6 +29,14 @@
 
 namespace {
 
+int run_any_bench(const skyig::clients::BenchOptions& bench) {
+    using namespace skyig::clients;
+    if (bench.family == "frame") return run_frame_rates(bench);
+    if (bench.family == "thinning") return run_thinning(bench);
+    if (bench.family == "preview") return run_preview_cost(bench);
+    return run_bench(bench);
+}
+
 int run(int argc, char** argv) {
     using namespace skyig::clients;
     const Invocation invocation = read_command_line(argc, argv);
@@ -37,8 +47,7 @@ int run(int argc, char** argv) {
     if (const auto* plan = std::get_if<PlanOptions>(&invocation.options)) return run_plan(*plan);
     if (const auto* channels = std::get_if<ChannelsOptions>(&invocation.options))
         return run_channels(*channels);
-    if (const auto* bench = std::get_if<BenchOptions>(&invocation.options))
-        return bench->family == "frame" ? run_frame_rates(*bench) : run_bench(*bench);
+    if (const auto* bench = std::get_if<BenchOptions>(&invocation.options)) return run_any_bench(*bench);
     if (const auto* latency = std::get_if<LatencyOptions>(&invocation.options)) return run_latency(*latency);
     if (const auto* ephem = std::get_if<EphemOptions>(&invocation.options)) return run_ephem(*ephem);
     if (const auto* cloud = std::get_if<CloudOptions>(&invocation.options)) return run_cloud(*cloud);

@@ -51,10 +51,12 @@ Told ask(const status::Url& url, const StatusOptions& options, const std::option
                             status::to_string(url), body.error()),
                 {}};
     }
-    if (options.json && !options.watch_s && !options.rig) return {*body, Json()};
     try {
         Json status = Json::parse(*body);
+        // Any web server answers something to any path.
+        (void)status.at("frames");
         if (options.rig) return of_the_rig(url, options, status);
+        if (options.json && !options.watch_s) return {*body, std::move(status)};
         if (options.json) return {status.dump() + '\n', std::move(status)};
         return {status::page_text(status, before ? &*before : nullptr), std::move(status)};
     } catch (const Json::exception&) {

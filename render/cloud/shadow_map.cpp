@@ -293,16 +293,28 @@ void ShadowMap::update(CloudMaker& maker, const ShadowFrame& frame) {
         corners_m_[k] = glm::vec2{origin_m_ + glm::dvec2{low_[k]} * static_cast<double>(kCell_m[k])};
 }
 
+ShadowCells ShadowMap::as_cells() const noexcept {
+    ShadowCells cells{};
+    cells.passed = cells_.data();
+    for (std::size_t k = 0; k < kLevels; ++k) {
+        cells.corner_m[k][0] = corners_m_[k].x;
+        cells.corner_m[k][1] = corners_m_[k].y;
+        cells.inverse_cell_m[k] = 1.0F / kCell_m[k];
+    }
+    cells.least_cell_m = kCell_m[0];
+    cells.mean = mean_;
+    cells.reach_m = kReach_m;
+    return cells;
+}
+
 float ShadowMap::at(const glm::vec2& ground_m) const noexcept {
-    // A square fades into the next one over this part of its side.
-    constexpr float kFade = 8.0F / kCells;
     float sum = 0.0F;
     float left = 1.0F;
     for (std::size_t k = 0; k < kLevels && left > 0.0F; ++k) {
         const glm::vec2 place = (ground_m - corners_m_[k]) * (1.0F / kCell_m[k]) - 0.5F;
         constexpr auto last = static_cast<float>(kCells - 1);
         const float inside =
-            std::min({place.x, place.y, last - place.x, last - place.y}) * (1.0F / (kFade * last));
+            std::min({place.x, place.y, last - place.x, last - place.y}) * (1.0F / (kShadowFade * last));
         if (!(inside > 0.0F)) continue;
         const float share = left * std::min(inside, 1.0F);
         const int column = std::min(static_cast<int>(place.x), kCells - 2);
@@ -320,9 +332,8 @@ float ShadowMap::at(const glm::vec2& ground_m) const noexcept {
 }
 
 float ShadowMap::along(const glm::vec2& middle_m, const glm::vec2& half_m) const noexcept {
-    constexpr int kMost = 6;
-    const float apart_m = std::max(kCell_m[0], 0.01F * glm::length(middle_m));
-    const int count = std::clamp(static_cast<int>(2.0F * glm::length(half_m) / apart_m), 1, kMost);
+    const float apart_m = std::max(kCell_m[0], kShadowApart * glm::length(middle_m));
+    const int count = std::clamp(static_cast<int>(2.0F * glm::length(half_m) / apart_m), 1, kShadowLooks);
     float sum = 0.0F;
     for (int i = 0; i < count; ++i) {
         const float place = (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(count) - 1.0F;

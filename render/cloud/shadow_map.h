@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "render/cloud/cloud_maker.h"
+#include "render/cloud/shadow_cells.h"
 
 namespace skyig::render::cloud {
 
@@ -30,8 +31,8 @@ struct ShadowFrame {
 class ShadowMap {
   public:
     /// On the side of each square.
-    static constexpr int kCells = 128;
-    static constexpr int kLevels = 3;
+    static constexpr int kCells = kShadowSide;
+    static constexpr int kLevels = kShadowLevels;
     static constexpr std::array<float, kLevels> kCell_m{64.0F, 192.0F, 576.0F};
     /// Beyond it there is the mean alone.
     static constexpr float kReach_m = 0.5F * kCells * kCell_m[kLevels - 1];
@@ -55,6 +56,9 @@ class ShadowMap {
     [[nodiscard]] float at(const glm::vec2& ground_m) const noexcept;
     /// Its mean along a stretch of the ground whose middle and half are given.
     [[nodiscard]] float along(const glm::vec2& middle_m, const glm::vec2& half_m) const noexcept;
+
+    /// What at() and along() look into, until the next update(); of the ground it knows nothing.
+    [[nodiscard]] ShadowCells as_cells() const noexcept;
 
     /// Rises whenever cells have changed.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }

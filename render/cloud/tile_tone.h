@@ -2,6 +2,8 @@
 // run time. Plain data only: a type with inline functions would let the linker mix the instruction sets.
 #pragma once
 
+#include "render/cloud/shadow_cells.h"
+
 namespace skyig::render::cloud {
 
 inline constexpr int kToneRow = 32;
@@ -57,11 +59,11 @@ struct ToneTile {
     /// Where the ground shows: below the horizon.
     bool horizon;
     float horizon_sine;
-    bool near;   ///< near clouds are there
-    bool codes;  ///< kBehindCode is told
-    bool clear;  ///< no clouds are seen: shadows alone
-    bool shaded;
-    bool depths;  ///< near_passed and inverse_per_m of rows are wanted
+    bool near;                  ///< near clouds are there
+    bool codes;                 ///< kBehindCode is told
+    bool clear;                 ///< no clouds are seen: shadows alone
+    const ShadowCells* shadow;  ///< null: no shadows on the ground
+    bool depths;                ///< near_passed and inverse_per_m of rows are wanted
     float smooth[kToneChannels][kNodeFloats];
     float ground[3][kNodeFloats];       ///< in the place of kBehind
     float ground_code[3][kNodeFloats];  ///< of kBehindCode
@@ -79,7 +81,7 @@ struct ToneRow {
     float smooth[kToneChannels][kToneRow];
     float near_passed[kToneRow];    ///< of `passed`, by near clouds
     float inverse_per_m[kToneRow];  ///< over the distance of far ones, smooth where there are none
-    /// What shadows and gaps add to what is behind, not told in kBehind; gathered: sunlit.
+    /// What shadows and gaps add to what is behind, not told in kBehind.
     float shade[3][kToneRow];
 };
 

@@ -11,11 +11,13 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 namespace skyig::server::service {
 namespace {
 
 constexpr std::int64_t kNsPerUs = 1000;
+constexpr std::int64_t kLongFrame_ns = 60'000'000'000;
 
 using protocol::transport::FileDescriptor;
 
@@ -79,10 +81,27 @@ void ServiceManager::stopping() noexcept {
 }
 
 void ServiceManager::frame_drawn(std::int64_t now_ns) noexcept {
-    if (watchdog_ns_ <= 0 || (fed_ && now_ns - fed_ns_ < watchdog_ns_ / 3)) return;
+    if (watchdog_ns_ <= 0 || (!long_ && fed_ && now_ns - fed_ns_ < watchdog_ns_ / 3)) return;
     fed_ = true;
     fed_ns_ = now_ns;
-    send("WATCHDOG=1");
+    if (std::exchange(long_, false)) {
+        feed(watchdog_ns_);
+    } else {
+        send("WATCHDOG=1");
+    }
+}
+
+void ServiceManager::frame_takes_long() noexcept {
+    if (watchdog_ns_ <= 0 || std::exchange(long_, true)) return;
+    feed(std::max(watchdog_ns_, kLongFrame_ns));
+}
+
+/// \param within_ns  when the next is due
+void ServiceManager::feed(std::int64_t within_ns) noexcept {
+    std::array<char, 64> lines{};
+    const auto end =
+        fmt::format_to_n(lines.data(), lines.size(), "WATCHDOG=1\nWATCHDOG_USEC={}", within_ns / kNsPerUs);
+    send({lines.data(), std::min(end.size, lines.size())});
 }
 
 }  // namespace skyig::server::service

@@ -29,14 +29,19 @@ class ServiceManager {
     /// A frame has been drawn; for the frame loop alone, since this and nothing else feeds the watchdog:
     /// every third of its time at most. Neither waits nor allocates.
     void frame_drawn(std::int64_t now_ns) noexcept;
+    /// The frame at hand takes as long as a start, since the picture's device is set up anew: until it is
+    /// drawn the watchdog waits a minute.
+    void frame_takes_long() noexcept;
 
   private:
     void send(std::string_view lines) noexcept;
+    void feed(std::int64_t within_ns) noexcept;
 
     protocol::transport::FileDescriptor socket_;
     std::int64_t watchdog_ns_ = 0;
     std::int64_t fed_ns_ = 0;
     bool fed_ = false;
+    bool long_ = false;
 };
 
 }  // namespace skyig::server::service

@@ -48,8 +48,10 @@ void add_frames(MetricsText& out, const Account& account) {
     counter(out, "skyig_host_timeouts_total", "Frames that went on without the host's answer.",
             snapshot.host_timeouts);
     out.family("skyig_thinned", "gauge", "1 for what frames leave out for the frame rate's sake.");
-    for (std::size_t i = 0; i < config::kThinningNames.size(); ++i)
-        out.sample({{"what", config::kThinningNames[i]}}, number(snapshot.thinning.thinned >> i & 1U));
+    for (const config::ThinningName& each : config::kThinningNames) {
+        out.sample({{"what", each.name}},
+                   number(snapshot.thinning.thinned >> static_cast<unsigned>(each.thinning) & 1U));
+    }
     out.family("skyig_thinning_steps_total", "counter", "Times that something was left out, and came back.");
     out.sample({{"step", "thinned"}}, number(snapshot.thinning.times_thinned));
     out.sample({{"step", "returned"}}, number(snapshot.thinning.times_returned));

@@ -33,9 +33,9 @@ void add_pacing(const Facts& facts, const Snapshot& snapshot, RunReport& report)
     report.delays.push_back(row("host interval", snapshot.host_interval));
     report.delays.push_back(row("host jitter", snapshot.host_jitter));
     report.host_timeouts = snapshot.host_timeouts;
-    for (std::size_t i = 0; i < config::kThinningNames.size(); ++i) {
-        if ((snapshot.thinning.thinned >> i & 1U) != 0)
-            report.thinned.emplace_back(config::kThinningNames[i]);
+    for (const config::ThinningName& each : config::kThinningNames) {
+        if ((snapshot.thinning.thinned >> static_cast<unsigned>(each.thinning) & 1U) != 0)
+            report.thinned.emplace_back(each.name);
     }
     report.times_thinned = snapshot.thinning.times_thinned;
     report.times_returned = snapshot.thinning.times_returned;

@@ -38,7 +38,7 @@ Health health_of(const Facts& facts, const Snapshot& snapshot, std::int64_t now_
 std::string thinning_reason(const Thinning& thinning) {
     if (!thinning.any_step) return {};
     return fmt::format("{} {}: a frame took {:.0f} % of its time{}",
-                       config::kThinningNames[thinning.last_thing],
+                       config::thinning_name(static_cast<config::Thinning>(thinning.last_thing)),
                        thinning.last_thinned ? "left out" : "is back", thinning.last_load * 100.0,
                        thinning.exhausted ? "; nothing more can be left out" : "");
 }

@@ -55,6 +55,7 @@ HeadState read_request_line(std::string_view line, HttpRequest& request) noexcep
     const std::string_view version = line.substr(target + 1);
     if (!version.starts_with("HTTP/")) return HeadState::kBad;
     request.method = line.substr(0, method);
+    request.version = version;
     request.path = line.substr(method + 1, target - method - 1);
     if (request.path.find(' ') != std::string_view::npos) return HeadState::kBad;
     const std::size_t query = request.path.find_first_of("?#");
@@ -78,6 +79,8 @@ std::string_view reason_phrase(int status) noexcept {
             return "Not Found";
         case 405:
             return "Method Not Allowed";
+        case 426:
+            return "Upgrade Required";
         case 431:
             return "Request Header Fields Too Large";
         case 503:

@@ -17,6 +17,8 @@ inline constexpr std::size_t kMaxHeadBytes = 4096;
 
 struct HttpRequest {
     std::string_view method;
+    /// "HTTP/1.1" or "HTTP/1.0".
+    std::string_view version;
     /// Without query and fragment; not decoded: no page has a name that needs it.
     std::string_view path;
     /// What stands behind a '?', as sent.

@@ -135,6 +135,7 @@ class HttpServer::Loop {
     void tend(Connection& connection, std::int64_t now_ns) noexcept;
     void ask_again(Connection& connection, std::int64_t now_ns);
     void give_up(Connection& connection, std::int64_t now_ns);
+    [[nodiscard]] std::size_t endless_answers() const noexcept;
     [[nodiscard]] HttpAnswer answer_to(const Head& head) const;
     [[nodiscard]] std::int64_t ends_ns(const Connection& connection) const noexcept;
     [[nodiscard]] bool gives_way(const Connection& connection, std::int64_t now_ns) const noexcept;
@@ -273,9 +274,16 @@ void HttpServer::Loop::go_on(Connection& connection, std::int64_t now_ns) noexce
 void HttpServer::Loop::read(Connection& connection, std::int64_t now_ns) {
     const Head head = read_head({connection.head.data(), connection.head_bytes});
     if (head.state == HeadState::kIncomplete) return;
-    const HttpAnswer made = answer_to(head);
-    add(made.status == 200 || made.status == 503 ? answered_ : refused_);
+    HttpAnswer made = answer_to(head);
+    const bool one_too_many = made.endless && endless_answers() >= options_.endless_answers;
+    if (one_too_many) made = line_answer(503, "as many streams are read as may be: take single pictures");
+    add(!one_too_many && (made.status == 200 || made.status == 503) ? answered_ : refused_);
     answer(connection, made, head.request.method != "HEAD", now_ns);
+}
+
+std::size_t HttpServer::Loop::endless_answers() const noexcept {
+    return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(),
+                                                  [](const auto& one) { return one->pending.endless; }));
 }
 
 /// What is due without a word from the client.

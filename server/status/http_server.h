@@ -23,6 +23,8 @@ struct HttpOptions {
     /// Port 0: the system's choice.
     protocol::transport::Endpoint listen{0x7F000001, 0};
     std::size_t connections = 32;
+    /// Of them so many may read what has no end, so that places are left for everything else.
+    std::size_t endless_answers = 8;
     /// From a connection's first to its last byte; of an endless answer, from each part to the next.
     std::chrono::milliseconds time_limit{5000};
     /// A connection that has sent no whole request after so long gives way when others wait.

@@ -74,6 +74,7 @@ class StagedClock final : public server::Clock {
 
     [[nodiscard]] std::int64_t monotonic_ns() const noexcept override { return now_ns_; }
     [[nodiscard]] std::int64_t utc_ns() const noexcept override { return now_ns_ + utc_offset_ns_; }
+    [[nodiscard]] std::int64_t steady_utc_ns() const noexcept override { return now_ns_; }
     void sleep_until_ns(std::int64_t deadline_ns) override {
         now_ns_ = std::max(now_ns_, deadline_ns);
         act_(static_cast<double>(now_ns_) / static_cast<double>(kSecondNs));

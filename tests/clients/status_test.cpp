@@ -11,6 +11,7 @@
 #include "clients/skyig/status/http_get.h"
 #include "clients/skyig/status/page.h"
 #include "server/status/from_snapshot.h"
+#include "server/status/http_server.h"
 #include "server/status/status_port.h"
 #include "tests/server/status/example.h"
 
@@ -142,6 +143,22 @@ TEST_F(StatusVerb, WatchesAndTellsWhenNobodyAnswersAnyMore) {
     options_.json = false;
     EXPECT_EQ(run(2), 0) << err_;
     EXPECT_THAT(out_, HasSubstr("\n\nskyigd "));
+}
+
+TEST_F(StatusVerb, PrintsNothingThatIsNoStatus) {
+    for (const char* body : {"<html>welcome</html>", "[]", "{}", "{\"frames\": "}) {
+        const auto other = pages::HttpServer::open({}, clock_, [body](std::string_view, const auto&) {
+            return pages::HttpAnswer{200, "text/html", std::make_shared<const std::string>(body)};
+        });
+        ASSERT_TRUE(other);
+        options_.url = fmt::format("http://127.0.0.1:{}", (*other)->local().port);
+        for (const bool json : {true, false}) {
+            options_.json = json;
+            EXPECT_EQ(run(), 1) << body;
+            EXPECT_EQ(out_, "");
+            EXPECT_EQ(err_, fmt::format("skyig status: what answers at {} is not skyigd\n", options_.url));
+        }
+    }
 }
 
 TEST_F(StatusVerb, TellsOnlyTheRigOrThatThereIsNone) {

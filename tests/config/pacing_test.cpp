@@ -8,6 +8,7 @@
 namespace skyig::config {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using tests::error_of;
@@ -63,6 +64,9 @@ TEST(Overload, TakesAnOrderOfWhatMayBeLeftOut) {
 
 TEST(Overload, AnOrderOfOtherThingsIsRefused) {
     EXPECT_THAT(error_of(with("[overload]\norder = [\"fog\"]")).message, HasSubstr("\"cloud-refresh\""));
+    EXPECT_THAT(error_of(with("[overload]\norder = [\"dome\"]")).message,
+                AllOf(HasSubstr("\"dome\", which is no more: leaving it out saved no time"),
+                      HasSubstr("\"cloud-tones\"")));
     EXPECT_THAT(error_of(with("[overload]\norder = [3]")).message, HasSubstr("holds a whole number"));
     EXPECT_THAT(error_of(with("[overload]\norder = \"glare\"")).message, HasSubstr("a list"));
     EXPECT_THAT(error_of(with("[overload]\norder = [\"glare\", \"glare\"]")).message, HasSubstr("twice"));

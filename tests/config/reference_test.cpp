@@ -102,7 +102,7 @@ constexpr std::string_view kRich = R"(
 pace = "host"
 host_frames_behind = 1
 [overload]
-order = ["dome", "glare"]
+order = ["milky-way", "glare"]
 [host]
 allow = ["192.0.2.1:99", "127.0.0.1"]
 owns = ["control", "ownship"]

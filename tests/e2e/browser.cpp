@@ -186,6 +186,14 @@ void Browser::drag(double from_x, double from_y, double to_x, double to_y) {
     mouse("mouseReleased", to_x, to_y);
 }
 
+void Browser::press(const std::string& key) {
+    const int code = key == "Tab" ? 9 : key == "ArrowUp" ? 38 : key == "ArrowRight" ? 39 : 0;
+    if (code == 0) throw std::runtime_error("no code is known of the key " + key);
+    for (const char* type : {"keyDown", "keyUp"})
+        (void)call("Input.dispatchKeyEvent",
+                   {{"type", type}, {"key", key}, {"code", key}, {"windowsVirtualKeyCode", code}});
+}
+
 std::string Browser::screenshot(bool whole_page) {
     return from_base64(call("Page.captureScreenshot", {{"captureBeyondViewport", whole_page}})["data"]);
 }

@@ -28,6 +28,8 @@ class Browser {
     [[nodiscard]] nlohmann::json evaluate(const std::string& expression);
     /// Presses at one point of the page, goes to another in steps, and lets go there.
     void drag(double from_x, double from_y, double to_x, double to_y);
+    /// Presses and lets go a key: "Tab", "ArrowRight".
+    void press(const std::string& key);
     /// PNG bytes of what is seen, or of the whole page.
     [[nodiscard]] std::string screenshot(bool whole_page);
 

@@ -349,5 +349,26 @@ TEST(SkyigReplay, WrongUsageIsStatusTwoAndOneLine) {
         EXPECT_THAT(run({SKYIG_PROGRAM, verb, "--help"}).out, HasSubstr("--json"));
 }
 
+TEST(Replay, LightInFilesDoesNotDependOnHowManyAreWanted) {
+    const Rig rig;
+    const std::string config = rig.scratch.write(
+        "clouds.toml", rig.settings("2026-06-21T12:00:00Z") + "[weather]\npreset = \"broken\"\n");
+    const std::string recording = rig.scratch.file("clouds.pcapng");
+    const Finished live =
+        run({SKYIGD_PROGRAM, "--config", config, "--headless", "--record", recording, "--frames", "15"});
+    ASSERT_EQ(live.status, 0) << live.err;
+    const auto light_of_last = [&](const std::string& every) {
+        const std::string out = rig.scratch.file("every" + every);
+        const Replayed again =
+            replay(SKYIGD_PROGRAM, config, recording,
+                   {"--headless", "--speed", "0", "--out", out, "--out-format", "pfm", "--out-every", every});
+        EXPECT_EQ(again.finished.status, 0) << again.finished.err;
+        return read_text(out + "/only_000015.pfm");
+    };
+    const std::string of_all = light_of_last("1");
+    EXPECT_GT(of_all.size(), 64U * 48U * 12U);
+    EXPECT_TRUE(of_all == light_of_last("15"));
+}
+
 }  // namespace
 }  // namespace skyig::tests

@@ -180,6 +180,30 @@ TEST(Service, TakesAnotherQualityWithoutAFailedFrame) {
     EXPECT_EQ(daemon.wait().status, 0);
 }
 
+// All of the picture is set up anew, which takes as long as a start: the manager is told so before, and that
+// it is over after.
+TEST(Service, AnotherQualityHoldsUpTheWatchdogNotTheManager) {
+    const Service service;
+    Process daemon(service.command(), service.environment("1200000"));
+    ASSERT_TRUE(service.manager.hears("READY=1"));
+    rewrite(service.site, "version = 1\n", "version = 1\nquality.error_codes = 3\n");
+    daemon.signal(SIGHUP);
+    ASSERT_TRUE(service.manager.hears("RELOADING=1"));
+    const std::vector<std::string> wanted{"WATCHDOG=1\nWATCHDOG_USEC=60000000",
+                                          "WATCHDOG=1\nWATCHDOG_USEC=1200000",
+                                          "READY=1\nSTATUS=settings taken"};
+    std::vector<std::string> heard;
+    while (heard.size() < wanted.size()) {
+        const std::string message = service.manager.hear(milliseconds(30000));
+        ASSERT_NE(message, "");
+        if (message != "WATCHDOG=1") heard.push_back(message);
+    }
+    EXPECT_EQ(heard, wanted);
+    EXPECT_EQ(service.manager.hear(milliseconds(1200)), "WATCHDOG=1");
+    daemon.signal(SIGTERM);
+    EXPECT_EQ(daemon.wait().status, 0);
+}
+
 TEST(Service, RefusesABrokenFileWholeAndGoesOn) {
     const Service service;
     Process daemon(service.command(), service.environment("0"));

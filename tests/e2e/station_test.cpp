@@ -62,17 +62,39 @@ class Station : public ::testing::Test {
                         "\"cavok\"\ntransition_s "
                         "= 0.3\n[eye]\nadapt_up_s = 0.2\nadapt_down_s = 0.2\n{}",
                         cigi, channel_toml("only", 96, 64, 0)));
-        daemon_.emplace(std::vector<std::string>{SKYIGD_PROGRAM, "--config", config, "--headless"});
-        ASSERT_TRUE(daemon_->wait_for_err("/status")) << daemon_->err_so_far();
+        start_daemon(config);
         url_ = clients::status::parse_url(word_after(daemon_->err_so_far(), "status on ")).value();
-        program_.emplace(std::vector<std::string>{
-            SKYIG_PROGRAM, "instructor", "--daemon-status", clients::status::to_string(url_), "--cigi-to",
-            fmt::format("127.0.0.1:{}", cigi), "--listen", "127.0.0.1:0", "--saved", ""});
-        ASSERT_TRUE(program_->wait_for_err(" for the daemon")) << program_->err_so_far();
+        cigi_to_ = fmt::format("127.0.0.1:{}", cigi);
+        start_station("127.0.0.1:0");
         browser_.emplace();
         browser_->resize(1280, 900);
-        browser_->open(word_after(program_->err_so_far(), "skyig instructor: "));
+        browser_->open(page_url_);
         ASSERT_TRUE(comes([this] { return !picture().empty(); })) << "no picture in the page";
+    }
+
+    void start_daemon(const std::string& config) {
+        daemon_.emplace(std::vector<std::string>{SKYIGD_PROGRAM, "--config", config, "--headless"});
+        ASSERT_TRUE(daemon_->wait_for_err("/status")) << daemon_->err_so_far();
+    }
+    void start_station(const std::string& listen) {
+        program_.emplace(std::vector<std::string>{SKYIG_PROGRAM, "instructor", "--daemon-status",
+                                                  clients::status::to_string(url_), "--cigi-to", cigi_to_,
+                                                  "--listen", listen, "--saved", ""});
+        ASSERT_TRUE(program_->wait_for_err(" for the daemon")) << program_->err_so_far();
+        page_url_ = word_after(program_->err_so_far(), "skyig instructor: ");
+    }
+    /// "127.0.0.1:PORT" of the station.
+    [[nodiscard]] std::string station_address() const {
+        const std::size_t at = std::string("http://").size();
+        return page_url_.substr(at, page_url_.find('/', at) - at);
+    }
+    /// What is told above the cards.
+    [[nodiscard]] std::string notice() {
+        return browser_->evaluate("document.querySelector('.notice p')?.textContent ?? ''")
+            .get<std::string>();
+    }
+    bool notices(const std::string& part) {
+        return comes([&] { return notice().find(part) != std::string::npos; });
     }
 
     /// Up to the blank behind it.
@@ -146,7 +168,9 @@ class Station : public ::testing::Test {
     server::SystemClock clock_;
     std::optional<Process> daemon_;
     clients::status::Url url_;
+    std::string cigi_to_;
     std::optional<Process> program_;
+    std::string page_url_;
     std::optional<Browser> browser_;
 };
 
@@ -206,6 +230,86 @@ TEST_F(Station, WhatIsSetOnThePageIsToldAndSeen) {
         return world["utc"].get<std::string>().starts_with("2026-06-21T12");
     })) << world();
     EXPECT_TRUE(differs("undone", noon, 5.0, false));
+}
+
+TEST_F(Station, ThePageComesBackByItselfAndTellsWhatWasNotHeard) {
+    constexpr int kCumulonimbus = 6, kCumulus = 7;
+    click("[data-preset=storm]");
+    ASSERT_TRUE(shows([](const Json& world) { return has_cloud(world, kCumulonimbus); })) << world();
+
+    // A daemon that begins anew is told what was asked, before it ended and while it was away.
+    daemon_->signal(SIGKILL);
+    (void)daemon_->wait();
+    ASSERT_TRUE(notices("The daemon does not answer")) << notice();
+    click("[data-preset=broken]");
+    std::string config = read_text(scratch_.file("site.toml"));
+    const std::string any = "listen = \"127.0.0.1:0\"";
+    config.replace(config.find(any), any.size(), fmt::format("listen = \"127.0.0.1:{}\"", url_.port));
+    start_daemon(scratch_.write("again.toml", config));
+    EXPECT_TRUE(shows([](const Json& world) {
+        return has_cloud(world, kCumulus) && !has_cloud(world, kCumulonimbus);
+    })) << world();
+    EXPECT_TRUE(comes([this] { return notice().empty() && !picture().empty(); })) << notice();
+
+    // A station that hangs: what is asked of it may be lost with the connection.
+    program_->signal(SIGSTOP);
+    click("[data-preset=fog]");
+    EXPECT_TRUE(notices("Perhaps not heard by the station: preset fog")) << notice();
+    EXPECT_TRUE(browser_->evaluate("document.querySelector('main').inert").get<bool>());
+    program_->signal(SIGKILL);
+    (void)program_->wait();
+    start_station(station_address());
+    ASSERT_TRUE(
+        comes([this] { return !browser_->evaluate("document.querySelector('main').inert").get<bool>(); }));
+    EXPECT_TRUE(notices("Perhaps not heard by the station: preset fog")) << notice();
+    click("#dismiss");
+    EXPECT_TRUE(comes([this] { return notice().empty(); })) << notice();
+    click("[data-preset=storm]");
+    EXPECT_TRUE(shows([](const Json& world) { return has_cloud(world, kCumulonimbus); })) << world();
+    EXPECT_EQ(notice(), "");
+}
+
+// Every control that works is come to by Tab, and is seen to have been.
+TEST_F(Station, AllOfItWorksByKeyboard) {
+    click("[data-preset=scattered]");
+    ASSERT_TRUE(shows([](const Json& world) { return has_cloud(world, 7); }));
+    ASSERT_TRUE(comes(
+        [this] { return browser_->evaluate("!!document.querySelector('[data-handle=top]')").get<bool>(); }));
+    constexpr const char* kAll =
+        "Array.from(document.querySelectorAll('button, input, select, textarea, [tabindex]'))"
+        ".filter(e => !e.disabled && e.getClientRects().length > 0)";
+    const int count = browser_->evaluate(fmt::format("(window.missing = new Set({})).size", kAll)).get<int>();
+    // A date has parts that Tab stops at.
+    for (int i = 0; i < count + 10; ++i) {
+        browser_->press("Tab");
+        const Json unseen = browser_->evaluate(
+            "(() => { const e = document.activeElement; window.missing.delete(e);"
+            "const by = getComputedStyle(e).outlineStyle !== 'none' || e.matches('.handle');"
+            "return e === document.body || by ? null : e.outerHTML; })()");
+        EXPECT_TRUE(unseen.is_null()) << "has the focus and does not show it: " << unseen;
+    }
+    EXPECT_EQ(browser_->evaluate("Array.from(window.missing, e => e.outerHTML)"), Json::array());
+
+    const auto focus = [this](const char* selector) {
+        (void)browser_->evaluate(fmt::format("document.querySelector('{}').focus()", selector));
+    };
+    focus(".slider");
+    const double visibility_m = world()["air"]["visibility_m"].get<double>();
+    browser_->press("ArrowRight");
+    EXPECT_TRUE(shows([&](const Json& world) {
+        return world["air"]["visibility_m"].get<double>() > visibility_m * 1.02;
+    })) << world();
+    focus("[data-handle=top]");
+    const double top_m = world()["weather"]["layers"][0]["top_m"].get<double>();
+    browser_->press("ArrowUp");
+    EXPECT_TRUE(shows([&](const Json& world) {
+        return world["weather"]["layers"][0]["top_m"].get<double>() > top_m + 1.0;
+    })) << world();
+    focus(".dial");
+    browser_->press("ArrowRight");
+    EXPECT_TRUE(shows([](const Json& world) {
+        return world["utc"].get<std::string>().starts_with("2026-06-21T12:0");
+    })) << world();
 }
 
 TEST_F(Station, PagesFitAndTargetsCanBeTouched) {

@@ -165,6 +165,75 @@ TEST(CloudMapSchedule, FollowsAFixedNumberOfRaysAFrameAndNoneWhereAllStandsStill
     EXPECT_FALSE(frame.plan().needs(Pass::kNearClouds));
 }
 
+// All of what is seen follows, a third of it a frame.
+TEST(CloudMapSchedule, ThinnedTonesFollowEveryThirdFrameAndAllInTurn) {
+    const FakeSheet sheet{};
+    Scene scene = noon_scene(500.0);
+    add_layer(scene, sheet);
+    SkyFrame whole({}, coarse()), thinned({}, coarse());
+    render::Thinned tones;
+    tones.set(static_cast<std::size_t>(Thin::kCloudTones));
+    for (SkyFrame* frame : {&whole, &thinned})
+        frame->draw_clouds(fake_clouds(sheet));
+    thinned.thin(tones);
+    std::vector<int> unseen_since;
+    std::size_t of_whole = 0, of_thinned = 0, most = 0;
+    for (int i = 0; i < 60; ++i) {
+        scene.time_s += 1.0 / 30.0;
+        scene.eye.latitude_deg += 7e-5;
+        whole.prepare(scene, 1.8e-3);
+        thinned.prepare(scene, 1.8e-3);
+        if (i == 0) {
+            EXPECT_EQ(thinned.clouds().toned().size(), whole.clouds().toned().size()) << "all at first";
+            unseen_since.assign(static_cast<std::size_t>(whole.clouds().map().geometry().tile_count()), 0);
+            continue;
+        }
+        for (const TonedTile& toned : whole.clouds().toned()) {
+            int& waits = unseen_since[static_cast<std::size_t>(toned.tile)];
+            waits = std::max(waits, 1);
+        }
+        for (const TonedTile& toned : thinned.clouds().toned())
+            unseen_since[static_cast<std::size_t>(toned.tile)] = 0;
+        for (int& waits : unseen_since) {
+            EXPECT_LE(waits, 3);
+            waits += waits > 0 ? 1 : 0;
+        }
+        of_whole += whole.clouds().toned().size();
+        of_thinned += thinned.clouds().toned().size();
+        most = std::max(most, thinned.clouds().toned().size());
+    }
+    std::printf("tiles toned in 59 frames: %zu, thinned %zu, %zu in one frame at most\n", of_whole,
+                of_thinned, most);
+    EXPECT_GT(of_thinned, 0U);
+    EXPECT_LT(of_thinned, of_whole / 2);
+    EXPECT_EQ(thinned.plan()[Pass::kClouds].reason, "followed more slowly: thinned out");
+}
+
+TEST(CloudMapSchedule, ThinnedShadowsLeaveTheGroundInEvenLight) {
+    FakeSheet sheet{};
+    sheet.casts_shadow = true;
+    Scene scene = noon_scene(500.0);
+    add_layer(scene, sheet);
+    SkyFrame frame({}, coarse());
+    frame.draw_clouds(fake_clouds(sheet));
+    frame.prepare(scene, 1.8e-3);
+    EXPECT_TRUE(frame.ground_shadow().shown());
+    const auto bit = static_cast<std::size_t>(Thin::kCloudShadows);
+    EXPECT_TRUE(thinnable(frame.plan())[bit]);
+    render::Thinned shadows;
+    shadows.set(bit);
+    frame.thin(shadows);
+    frame.prepare(scene, 1.8e-3);
+    EXPECT_FALSE(frame.ground_shadow().shown());
+    EXPECT_EQ(frame.plan()[Pass::kCloudShadows].reason, "thinned out for the frame rate");
+    EXPECT_FALSE(thinnable(frame.plan())[bit]);
+    frame.thin({});
+    scene.eye.latitude_deg += 1e-3;
+    for (int i = 0; i < 200; ++i)
+        frame.prepare(scene, 1.8e-3);
+    EXPECT_TRUE(frame.ground_shadow().shown()) << "they come back";
+}
+
 TEST(CloudMapSchedule, CloudsThatGoLeaveNoGapFromOneFrameToTheNext) {
     const FakeSheet sheet{.least_transmittance = 0.2, .most_transmittance = 0.2};
     Scene scene = noon_scene(500.0);

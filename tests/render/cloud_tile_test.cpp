@@ -227,6 +227,50 @@ struct Shady {
     [[nodiscard]] bool is_lower(int tile) const { return sky.clouds().map().geometry().corner(tile).lower; }
 };
 
+// Shadows of a row of texels in lanes, against GroundShadow for one direction.
+TEST(CloudTone, ShadesTheGroundAsGroundShadowTells) {
+    const Shady shady(0.0, 2000.0, -35.0);
+    const GroundShadow& shadow = shady.sky.ground_shadow();
+    ASSERT_TRUE(shadow.shown());
+    const cloud::CloudMap& map = shady.sky.clouds().map();
+    const auto texel_rad = static_cast<float>(map.geometry().worst_texel_rad());
+    const cloud::ShadowCells cells = shadow.cells(texel_rad);
+    for (const auto* kernel : {&cloud::portable::tone_kernel(), &cloud::tone_kernel()}) {
+        double worst = 0.0, least = 1.0, most = -1.0;
+        for (const int index : map.seen_tiles()) {
+            const auto corner = map.geometry().corner(index);
+            if (!corner.lower) continue;
+            cloud::ToneTile tile{};
+            tile.map_size = map.geometry().size();
+            tile.column = corner.column;
+            tile.row = corner.row;
+            tile.lower = true;
+            tile.clear = true;
+            tile.shadow = &cells;
+            for (auto& sunlit : tile.sunlit)
+                std::fill(std::begin(sunlit), std::end(sunlit), 1.0F);
+            for (int y = 0; y < cloud::kToneRow; y += 7) {
+                cloud::ToneRow row{};
+                kernel->gather(tile, y, row);
+                for (int i = 0; i < cloud::kToneRow; ++i) {
+                    const glm::vec3 direction =
+                        map.geometry().direction(corner.column + i, corner.row + y, true);
+                    GroundShadow::Place place;
+                    const float told =
+                        shadow.meets(direction, texel_rad, place) ? shadow.over_mean(place) : 0.0F;
+                    worst = std::max(worst, static_cast<double>(std::abs(row.shade[1][i] - told)));
+                    least = std::min(least, static_cast<double>(told));
+                    most = std::max(most, static_cast<double>(told));
+                }
+            }
+        }
+        std::printf("%s: shade within %.1e, of %.2f to %.2f\n", kernel->name, worst, least, most);
+        EXPECT_LT(least, -0.1) << kernel->name;
+        EXPECT_GT(most, 0.1) << kernel->name;
+        EXPECT_LT(worst, 1e-3) << kernel->name;
+    }
+}
+
 TEST(CloudTiles, AnEyeThatIsCarriedElsewhereSeesTheShadowsThatLieThere) {
     Shady carried(0.0, 2000.0, -35.0);
     ASSERT_TRUE(carried.sky.ground_shadow().shown());

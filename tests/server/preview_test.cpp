@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -97,6 +98,24 @@ TEST(Preview, TheNewestFrameWinsAndTheFrameLoopNeverWaits) {
     ASSERT_TRUE(soon([&] { return preview.newest(0, 1).number == 2; }));
     EXPECT_EQ(*preview.newest(0, 1).file, "8x8:9");
     EXPECT_EQ(encoder.begun, 2);
+}
+
+TEST(Preview, NoFrameReadsBackAllOfARigAndNoChannelIsPassedOver) {
+    Encoder encoder;
+    Preview preview({{"a", 8, 8}, {"b", 8, 8}, {"c", 8, 8}}, {.rate_hz = 30.0}, encoder.encode());
+    std::array<int, 3> reads{};
+    for (int frame = 0; frame < 30; ++frame) {
+        const std::int64_t now_ns = (1 + frame) * 100 * kMs_ns;
+        for (std::size_t i = 0; i < reads.size(); ++i)
+            (void)preview.newest(i, now_ns);
+        int in_frame = 0;
+        preview.offer(now_ns, [&](std::size_t channel, std::span<std::byte>) {
+            ++reads[channel];
+            ++in_frame;
+        });
+        EXPECT_EQ(in_frame, 1);
+    }
+    EXPECT_EQ(reads, (std::array<int, 3>{10, 10, 10}));
 }
 
 TEST(Preview, FindsChannelsByName) {

@@ -17,7 +17,7 @@ uniform float u_haze_g;
 uniform vec3 u_source_enu[2];
 uniform mat4 u_source_rgb[2];    // what becomes of the light of the table
 uniform float u_source_count;
-uniform vec3 u_night_cd_m2;      // of endless air
+uniform vec3 u_even_cd_m2;      // of endless air
 uniform float u_veil_count;      // segments, 0 without fog
 uniform float u_veil_radius_m;   // of the eye's place, from the Earth's centre
 uniform vec3 u_veil_lux[2];
@@ -53,7 +53,7 @@ vec3 light(sampler3D rest, sampler3D haze, vec3 source, vec3 view, vec3 at) {
 
 // Light of air without an end: what the table has so far along the ray.
 vec3 endless(vec3 view, vec3 at) {
-    vec3 sum = u_night_cd_m2;
+    vec3 sum = u_even_cd_m2;
     if (u_source_count > 0.5)
         sum += mat3(u_source_rgb[0]) * light(u_rest_0, u_haze_0, u_source_enu[0], view, at);
     if (u_source_count > 1.5)

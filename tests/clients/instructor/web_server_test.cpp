@@ -5,8 +5,10 @@
 #include <net/if.h>
 #include <sched.h>
 #include <sys/ioctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/time.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
@@ -285,6 +287,34 @@ TEST_F(Port, SixtyFourPagesHearAllAndOneMoreIsToldSo) {
     EXPECT_GE(stop().refused_full, 1U);
 }
 
+TEST(NoDescriptors, AreWaitedForAndNotSpunOn) {
+    WebOptions options;
+    options.listen.port = 0;
+    const server::SystemClock clock;
+    const auto server = WebServer::open(options, clock,
+                                        {[](std::string_view path) { return page_answer(path); },
+                                         [] { return std::vector<std::string>{"welcome"}; },
+                                         [](std::string_view) { return std::string(); }})
+                            .value();
+    Client page(server->local());
+    page.send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    const int next = transport::FileDescriptor(::dup(STDERR_FILENO)).get();
+    const rlimit none{static_cast<rlim_t>(next), before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+    int steps = 0;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
+    for (; std::chrono::steady_clock::now() < end; ++steps)
+        server->step(std::chrono::milliseconds(20));
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+    EXPECT_EQ(server->counts().connections, 0U);
+    EXPECT_LE(steps, 40);
+    for (int i = 0; i < 100 && server->counts().pages == 0; ++i)
+        server->step(std::chrono::milliseconds(20));
+    EXPECT_EQ(server->counts().pages, 1U);
+}
+
 /// The loopback interface of the calling thread's own network, up or down; false where it may not.
 bool set_loopback(bool up) {
     const transport::FileDescriptor any(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
@@ -315,7 +345,8 @@ TEST(HalfOpen, WhoIsGoneWithoutAWordIsEnded) {
         Client page(server->local());
         const std::string name = transport::to_string(server->local());
         page.send("GET /ws HTTP/1.1\r\nHost: " + name + "\r\nOrigin: http://" + name +
-                  "\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+                  "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: "
+                  "13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
         const auto step_while = [&](std::size_t sockets) {
             while (server->open_sockets() == sockets && std::chrono::steady_clock::now() < end) {

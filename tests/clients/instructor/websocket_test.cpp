@@ -108,6 +108,30 @@ server::status::HttpRequest asked(const std::string& head) {
     return server::status::read_head(head).request;
 }
 
+TEST(Handshake, IsAsTheStandardHasIt) {
+    const auto stands = [](const std::string& request, const std::string& upgrade,
+                           const std::string& connection, const std::string& key,
+                           const std::string& version) {
+        const std::string head = request + "\r\nUpgrade: " + upgrade + "\r\nConnection: " + connection +
+                                 "\r\nSec-WebSocket-Key: " + key + "\r\nSec-WebSocket-Version: " + version +
+                                 "\r\n\r\n";
+        return check_handshake(asked(head));
+    };
+    const std::string get = "GET /ws HTTP/1.1", key = "dGhlIHNhbXBsZSBub25jZQ==";
+    EXPECT_EQ(stands(get, "websocket", "Upgrade", key, "13"), Handshake::kGood);
+    EXPECT_EQ(stands(get, "h2c, WebSocket", "keep-alive, Upgrade", key, "13"), Handshake::kGood);
+    EXPECT_EQ(stands("POST /ws HTTP/1.1", "websocket", "Upgrade", key, "13"), Handshake::kBad);
+    EXPECT_EQ(stands("GET /ws HTTP/1.0", "websocket", "Upgrade", key, "13"), Handshake::kBad);
+    EXPECT_EQ(stands(get, "websockets", "Upgrade", key, "13"), Handshake::kBad);
+    EXPECT_EQ(stands(get, "", "Upgrade", key, "13"), Handshake::kBad);
+    EXPECT_EQ(stands(get, "websocket", "keep-alive", key, "13"), Handshake::kBad);
+    for (const char* no_key : {"", "x", "dGhlIHNhbXBsZSBub25jZQ", "dGhlIHNhbXBsZSBub25jZQ=A",
+                               "dGhlIHNhbXBsZSBub25j!Q==", "dGhlIHNhbXBsZSBub25jZWFhYQ=="})
+        EXPECT_EQ(stands(get, "websocket", "Upgrade", no_key, "13"), Handshake::kBad) << no_key;
+    EXPECT_EQ(stands(get, "websocket", "Upgrade", key, "8"), Handshake::kOtherVersion);
+    EXPECT_EQ(stands(get, "websocket", "Upgrade", key, ""), Handshake::kOtherVersion);
+}
+
 TEST(Admission, LetsInTheOwnPageAlone) {
     const AdmissionRules rules;
     const auto upgrade = [&rules](const std::string& host, const std::string& origin) {

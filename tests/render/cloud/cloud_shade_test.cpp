@@ -6,8 +6,12 @@
 #include <cmath>
 #include <cstdio>
 #include <initializer_list>
+#include <numbers>
 
 #include "render/cloud/slab_light.h"
+#include "render/colour.h"
+#include "render/deferred.h"
+#include "render/light_on_clouds.h"
 #include "render/sky_veil.h"
 #include "tests/render/cloud/lit_tables.h"
 
@@ -74,6 +78,54 @@ TEST(CloudShade, GroundBelowIsAsDarkAsItsLight) {
     // No edge at the horizon.
     const auto at = [&](double above_rad) { return under.sun.clouded.share(above_rad); };
     EXPECT_NEAR(at(1e-9), at(-1e-9), 1e-5F);
+}
+
+// Below an overcast the air's light is the cloud's: no blue line along the horizon, on either side of it.
+TEST(CloudShade, HorizonUnderAnOvercastHasTheHueOfTheCloud) {
+    const auto hue = [](const glm::dvec3& rgb) {
+        const glm::dvec3 xyz = kXyzFromRec709 * rgb;
+        return glm::dvec2{xyz} / (xyz.x + xyz.y + xyz.z);
+    };
+    double worst = 0.0, clear = 0.0;
+    for (const double visibility_m : {10e3, 20e3, 50e3}) {
+        Scene scene;
+        scene.air.visibility_m = visibility_m;
+        scene.eye.height_m = 300.0;
+        scene.sun.direction_enu = {0.0, 0.6, 0.8};
+        tests::LitTables lit(scene);
+        const auto horizon = [&] {
+            return hue(glm::dvec3{lit.sky.smooth_rgb_cd_m2(lit.sky.horizon_elevation_rad, 2.0, Side::kSky)});
+        };
+        const glm::dvec2 blue = horizon();
+        scene.weather = weather_of({layer(1.0, 900.0, 600.0, 30.0)});
+        lit.follow(scene);
+        cloud::CloudLight on_clouds;
+        light_clouds(scene, lit.plan, lit.tables, lit.sky, on_clouds);
+        const double share = static_cast<double>(CloudShade(scene.weather, 0.1).at(300.0, 0.8).beam);
+        const glm::dvec3 base_cd_m2 =
+            share * (glm::dvec3{on_clouds.beam_lx[cloud::CloudLight::kSun][0]} * 0.8 / std::numbers::pi +
+                     glm::dvec3{on_clouds.above_cd_m2[0]});
+        const glm::dvec2 base = hue(base_cd_m2);
+        clear = std::max(clear, glm::distance(blue, base));
+        DeferredAir air;
+        air.update(scene, lit.plan, lit.tables, lit.sky);
+        for (const double azimuth_rad : {0.0, 2.0, 4.0}) {
+            for (const double above_deg : {-2.0, -1.5, -1.0, -0.5, -0.1, 0.0, 0.1, 0.5, 1.0, 2.0}) {
+                const double elevation_rad = lit.sky.horizon_elevation_rad + glm::radians(above_deg);
+                glm::dvec3 seen{lit.sky.smooth_rgb_cd_m2(elevation_rad, azimuth_rad, Side::kByElevation)};
+                if (above_deg > 0.0) {
+                    const double away_m = 600.0 / std::sin(glm::radians(above_deg));
+                    const auto between = air.between(direction_of({elevation_rad, azimuth_rad}), away_m);
+                    seen = between.passed_rgb * base_cd_m2 + between.added_rgb;
+                }
+                worst = std::max(worst, glm::distance(hue(seen), base));
+            }
+        }
+    }
+    std::printf("hue within 2 deg of the horizon under 8 oktas: within %.4f of the cloud's, clear %.4f\n",
+                worst, clear);
+    EXPECT_LT(worst, 0.018);
+    EXPECT_GT(clear, 1.8 * worst);
 }
 
 // Fog is lit by what the clouds above it let through: as much darker as the ground.

@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <future>
 #include <map>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 namespace skyig::server {
 namespace {
@@ -54,6 +59,39 @@ TEST(ImageWriter, SkipsAndCountsWhenAllBuffersAreUnderWay) {
     writer.finish();
     EXPECT_EQ(writer.counts().skipped, 5U);
     EXPECT_EQ(writer.counts().written, 2U);
+}
+
+TEST(ImageWriter, WaitsForABufferWhereThatIsWanted) {
+    ImageWriter writer({"out", {{"only", 1, 1}}, 1},
+                       [](const std::string&, const ImageWriter::Frame&, std::size_t, std::string&) {
+                           std::this_thread::sleep_for(std::chrono::milliseconds(5));
+                           return true;
+                       });
+    for (int i = 0; i < 5; ++i)
+        writer.submit(writer.acquire());
+    writer.finish();
+    EXPECT_EQ(writer.counts().skipped, 0U);
+    EXPECT_EQ(writer.counts().written, 5U);
+}
+
+TEST(ImageWriter, ShowsFramesThatAreNotWrittenToWhoDrawsThem) {
+    std::vector<std::string> events;
+    ImageWriter::Files files{
+        [&](const std::string& path, const ImageWriter::Frame&, std::size_t, std::string&) {
+            events.push_back(path);
+            return true;
+        },
+        [&](const ImageWriter::Frame& frame) { events.push_back("seen " + std::to_string(frame.number)); }};
+    ImageWriter writer({"d", {{"c", 1, 1}}, 3, ImageWriter::Takes::kScene, "exr"}, std::move(files));
+    for (std::uint64_t i = 1; i <= 3; ++i) {
+        ImageWriter::Frame* frame = writer.acquire();
+        frame->number = i;
+        frame->written = i == 3;
+        writer.submit(frame);
+    }
+    writer.finish();
+    EXPECT_EQ(events, (std::vector<std::string>{"seen 1", "seen 2", "d/c_000003.exr"}));
+    EXPECT_EQ(writer.counts().written, 1U);
 }
 
 TEST(ImageWriter, FlushesAllPendingInOrder) {

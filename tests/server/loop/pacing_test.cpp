@@ -103,7 +103,7 @@ TEST_F(LockStepLoop, DrawsFromTheAnswerBeforeWhereTheSettingsAllowIt) {
 class OverloadLoop : public FrameLoopTest {
   protected:
     OverloadLoop() {
-        config_.overload.order = {config::Thinning::kCloudMotion, config::Thinning::kGlare};
+        config_.overload.order = {config::Thinning::kCloudTones, config::Thinning::kGlare};
         painter_.would_help.set();
         painter_.saved_ns = 3 * kMs / 2;
     }
@@ -118,7 +118,7 @@ TEST_F(OverloadLoop, TheRateHoldsByLeavingThingsOutAndTheyComeBack) {
     loop();
     run(300);
     const std::uint64_t late_at_first = loop_->report().late_frames;
-    EXPECT_EQ(loop_->report().thinned, (std::vector<std::string>{"cloud-motion", "glare"}));
+    EXPECT_EQ(loop_->report().thinned, (std::vector<std::string>{"cloud-tones", "glare"}));
     run(500);
     EXPECT_EQ(loop_->report().late_frames, late_at_first) << "a frame takes 8 of 10 ms";
     EXPECT_EQ(loop_->report().times_returned, 0U);
@@ -130,7 +130,7 @@ TEST_F(OverloadLoop, TheRateHoldsByLeavingThingsOutAndTheyComeBack) {
     EXPECT_EQ(report.times_returned, 2U);
     EXPECT_EQ(link_.last_mark.thinned, 0U);
     EXPECT_THAT(lines_,
-                ::testing::Contains(HasSubstr("leaves out cloud-motion: a frame takes 11.0 of 10.0 ms")));
+                ::testing::Contains(HasSubstr("leaves out cloud-tones: a frame takes 11.0 of 10.0 ms")));
     EXPECT_THAT(lines_, ::testing::Contains(HasSubstr("glare is back")));
     std::printf("late until the rate held: %llu frames\n", static_cast<unsigned long long>(late_at_first));
     EXPECT_LE(late_at_first, 120U);
@@ -140,7 +140,7 @@ TEST_F(OverloadLoop, MarksOfFramesTellWhatTheyLeaveOut) {
     painter_.prepare_ns = 8 * kMs;
     loop();
     run(300);
-    EXPECT_EQ(link_.last_mark.thinned, 1U << static_cast<unsigned>(render::Thin::kCloudMotion));
+    EXPECT_EQ(link_.last_mark.thinned, 1U << static_cast<unsigned>(render::Thin::kCloudTones));
     EXPECT_EQ(painter_.thinned.to_ullong(), link_.last_mark.thinned);
 }
 

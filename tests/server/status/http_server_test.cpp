@@ -52,6 +52,20 @@ class Client {
         }
     }
 
+    /// What comes holds `part`, before its end and in time.
+    [[nodiscard]] bool receives(std::string_view part) const {
+        std::string text;
+        while (text.find(part) == std::string::npos) {
+            pollfd event{socket_.get(), POLLIN, 0};
+            if (::poll(&event, 1, 5000) <= 0) return false;
+            char buffer[4096];
+            const ssize_t got = ::recv(socket_.get(), buffer, sizeof(buffer), 0);
+            if (got <= 0) return false;
+            text.append(buffer, static_cast<std::size_t>(got));
+        }
+        return true;
+    }
+
   private:
     transport::FileDescriptor socket_;
 };
@@ -271,6 +285,40 @@ TEST_F(HttpServerTest, AnswersLaterWhatComesLater) {
     // Nothing comes in time.
     EXPECT_THAT(ask(kGet), StartsWith("HTTP/1.1 503 "));
     EXPECT_EQ(server_->counts().timed_out, 1U);
+}
+
+TEST_F(HttpServerTest, WhoReadsStreamsLeavesPlacesForTheRest) {
+    HttpOptions options;
+    options.connections = 4;
+    options.endless_answers = 2;
+    auto opened = HttpServer::open(options, clock_, [](std::string_view path, const PortCounts&) {
+        HttpAnswer answer = line_answer(200, "page");
+        answer.endless = path == "/stream";
+        if (answer.endless) answer.later = [] { return std::make_shared<const std::string>("part;"); };
+        return answer;
+    });
+    ASSERT_TRUE(opened);
+    server_ = std::move(opened).value();
+    constexpr std::string_view kStream = "GET /stream HTTP/1.1\r\nHost: localhost\r\n\r\n";
+    std::optional<Client> first(client());
+    const Client second = client();
+    for (const Client* one : {static_cast<const Client*>(&*first), &second}) {
+        one->send(kStream);
+        EXPECT_TRUE(one->receives("part;"));
+    }
+    EXPECT_THAT(ask(kStream), StartsWith("HTTP/1.1 503 "));
+    EXPECT_EQ(server_->counts().refused, 1U);
+    for (int i = 0; i < 10; ++i)
+        EXPECT_THAT(ask(kGet), StartsWith("HTTP/1.1 200 "));
+    // One that ends makes room.
+    first.reset();
+    bool again = false;
+    for (int tries = 0; tries < 100 && !again; ++tries) {
+        const Client next = client();
+        next.send(kStream);
+        again = next.receives("part;");
+    }
+    EXPECT_TRUE(again);
 }
 
 TEST_F(HttpServerTest, AnEndlessAnswerGoesOnAndHoldsNobodyUpWhoReadsNone) {

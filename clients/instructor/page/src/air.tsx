@@ -8,6 +8,13 @@ export type Change = (what: string, change: (weather: Weather) => void, gesture?
 
 const kLeast = 50;
 const kMost = 100000;
+const kSteps = 100;
+
+/** To hundredths at most and fortieths at least: less than half a step of the slider, which would stand still. */
+function even(metres: number): number {
+  const unit = 10 ** (Math.floor(Math.log10(metres / 2)) - 1);
+  return Math.round(metres / unit) * unit;
+}
 
 export function Visibility(props: { state: State; change: Change; send: Send }) {
   const [unit, setUnit] = useUnit('visibility', kDistances, 'km');
@@ -25,12 +32,9 @@ export function Visibility(props: { state: State; change: Change; send: Send }) 
         <NumberField id="rvr" label="RVR, day lights" value={props.state.rvr_m ?? 0} unit={unit.name === 'ft' ? unit : kDistances[0]}
           min={10} max={10000} step={50} commit={(value) => props.send({ do: 'rvr', rvr_m: value })} />
       </div>
-      <input class="slider" type="range" min={0} max={1000} value={Math.round(place * 1000)}
+      <input class="slider" type="range" min={0} max={kSteps} value={Math.round(place * kSteps)}
         aria-label="visibility" aria-valuetext={`${shown(visibility_m, unit)} ${unit.name}`}
-        onChange={(event) => {
-          const metres = kLeast * (kMost / kLeast) ** (Number(event.currentTarget.value) / 1000);
-          set(Number(metres.toPrecision(2)));
-        }} />
+        onChange={(event) => set(even(kLeast * (kMost / kLeast) ** (Number(event.currentTarget.value) / kSteps)))} />
       {fog && <p class="quiet">Below {shown(fog.top_m, { name: 'ft', size: 0.3048, decimals: 0 })} ft there is fog of{' '}
         {shown(fog.visibility_m, unit)} {unit.name}.</p>}
     </Card>

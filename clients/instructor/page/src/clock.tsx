@@ -61,7 +61,7 @@ function Dial(props: { almanac?: Almanac; minute: number; set: (minute: number) 
   };
   const turn = (by: number) => props.set(((Math.round(props.minute) + by) % kDay + kDay) % kDay);
   return (
-    <svg ref={dial} class="dial" viewBox="0 0 200 200" role="slider" tabIndex={0} aria-label="time of day, UTC"
+    <svg ref={dial} class="dial" viewBox="0 0 200 200" role="slider" tabindex={0} aria-label="time of day, UTC"
       aria-valuemin={0} aria-valuemax={kDay - 1} aria-valuenow={Math.round(minute)} aria-valuetext={`${hhmm(minute)} UTC`}
       onPointerDown={(event) => { dial.current!.setPointerCapture(event.pointerId); setDrag(at(event)); }}
       onPointerMove={(event) => { if (drag !== null) setDrag(at(event)); }}

@@ -60,7 +60,7 @@ export function LinkFacts(props: { status: Status }) {
         {status.world && <>Mode {status.world.mode}. Weather changes over {status.world.weather.transition_s} s. </>}
         {status.host?.address && <>Host {status.host.address}, {status.host.frames_behind_median} frames behind. </>}
         {status.said_again > 0 && <>Said again: {status.said_again}. </>}
-        {status.renderer}
+        {status.renderer && <>Drawn by OpenGL {status.renderer}.</>}
       </p>
     </Card>
   );

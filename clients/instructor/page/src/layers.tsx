@@ -86,7 +86,7 @@ function Profile(props: { layers: Layer[]; unit: Unit; eye_m: number; change: Ch
         const wide = Math.max(column - 10, 30);
         const cover = layer.coverage * wide;
         const handle = (which: Handle, at: number, hx: number) => (
-          <g class="handle" role="slider" tabIndex={0} data-layer={i} data-handle={which}
+          <g class="handle" role="slider" tabindex={0} data-layer={i} data-handle={which}
             aria-label={`${which} of ${layer.type}`} aria-valuemin={0} aria-valuemax={kTop_m}
             aria-valuenow={Math.round(which === 'top' ? layer.top_m : layer.base_m)}
             aria-valuetext={`${shown(which === 'top' ? layer.top_m : layer.base_m, props.unit)} ${props.unit.name}`}

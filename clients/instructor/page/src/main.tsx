@@ -34,7 +34,8 @@ function Lamps(props: { heard: Heard }) {
 function trouble(heard: Heard): string {
   const since = new Date(heard.since).toISOString().slice(11, 19);
   if (!heard.open) return `No connection since ${since} UTC: ${heard.trouble}.`;
-  if (heard.status && heard.status.silence !== '') return `The daemon does not answer: ${heard.status.silence}.`;
+  if (heard.status && heard.status.silence !== '')
+    return `The daemon does not answer: ${heard.status.silence}. What is set here is said to it once it does.`;
   const standby = heard.status?.world?.mode === 'standby' && heard.status.sources?.some((s) => s.owns.includes('control'));
   if (standby && !(heard.status!.weather_shown && heard.status!.clock_shown))
     return 'The host keeps the daemon in Standby: what is set here is shown once it operates.';
@@ -55,7 +56,9 @@ function App() {
     apply(weather);
     send({ do: 'weather', weather, what, gesture: gesture ?? '' });
   };
-  const said = trouble(heard);
+  const { unheard } = heard;
+  const said = [trouble(heard), unheard ? `Perhaps not heard by the station: ${unheard}. Set it again where it is missing here.` : '']
+    .filter((text) => text !== '').join(' ');
   const lively = heard.open && status?.silence === '';
   return (
     <>
@@ -72,9 +75,13 @@ function App() {
             {theme === 'night' ? 'Day' : 'Night'} theme</button>
         </div>
       </header>
-      {said !== '' && <p class="notice" role="alert">{said}</p>}
+      {said !== '' && (
+        <div class="notice" role="alert"><p>{said}</p>
+          {(unheard || heard.refused) && <button type="button" id="dismiss" onClick={() => link.dismiss()}>Dismiss</button>}
+        </div>
+      )}
       {state && status && hello && (
-        <main class={lively ? '' : 'gone'}>
+        <main class={lively ? '' : 'gone'} inert={!heard.open}>
           <div class="column">
             <Preview channels={status.channels ?? []} pictures={pictures} lively={lively} />
             <Presets hello={hello} state={state} send={send} />
