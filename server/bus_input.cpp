@@ -210,7 +210,7 @@ void BusInput::report_time(std::int64_t now_ns) {
     if (!time) return;
     ephemeris::UtcClockTime utc = ephemeris::UtcClockTime::from_unix(time->day * 86400);
     utc.advance(time->second_of_day);
-    world_.report_time(source_, utc, receiver_.clock().rate() > 0.0);
+    world_.report_time(source_, utc, receiver_.clock().rate());
 }
 
 void BusInput::report_air() {
@@ -244,9 +244,11 @@ void BusInput::report_layers() {
         control.coverage = as_float(100.0 * value(Parameter::kLayerCoverage, 0.0));
         control.transition_band = as_float(value(Parameter::kLayerTransition, 0.0));
         control.top_transition_band = control.transition_band;
-        // The range at which 5 % of the contrast is left.
+        // The range at which as much of the contrast is left as the air's own visibility means.
         const double extinction_km = value(Parameter::kLayerDensity, 0.0);
-        if (extinction_km > 0.0) control.visibility = as_float(1000.0 * 2.995732 / extinction_km);
+        if (extinction_km > 0.0)
+            control.visibility =
+                as_float(-1000.0 * std::log(world_.air().visibility_contrast) / extinction_km);
         const double east = value(Parameter::kLayerWindEast, 0.0);
         const double north = value(Parameter::kLayerWindNorth, 0.0);
         control.wind_horizontal = as_float(std::hypot(east, north));

@@ -141,7 +141,7 @@ void tell_ends(Log& log, const Outside& outside, const std::string& renderer) {
     if (const Recorder* recorder = outside.recorder()) {
         const Recorder::Counts counts = recorder->counts();
         if (counts.file_failed) log.error("{}: writing failed; the recording ends there", recorder->path());
-        if (counts.lost > 0)
+        if (counts.lost > 0 && !counts.file_failed)
             log.error("{}: {} packets are missing: the disk was too slow", recorder->path(), counts.lost);
     }
 }
@@ -186,6 +186,19 @@ std::unique_ptr<status::StatusPort> open_status(const config::Status& settings, 
     return std::move(port).value();
 }
 
+/// What was asked for by an option and does not hold all. \return in a line; empty: nothing
+std::string incomplete_file(const DaemonOptions& options, FrameHashes* hashes, FrameTable* table,
+                            std::ofstream& events, const Outside& outside) {
+    const auto fault = [](const std::string& path) {
+        return fmt::format("{}: not all could be written: is the disk full?", path);
+    };
+    if (hashes != nullptr && !hashes->finish()) return fault(options.hashes_path);
+    if (table != nullptr && !table->finish()) return fault(options.times_path);
+    if (events.is_open() && !events.flush()) return fault(options.events_path);
+    const Recorder* recorder = options.record_path.empty() ? nullptr : outside.recorder();
+    return recorder != nullptr && recorder->counts().file_failed ? fault(options.record_path) : std::string();
+}
+
 void write_report(const std::string& path, const RunReport& report) {
     std::ofstream file(path);
     file << to_json(report);
@@ -219,6 +232,7 @@ struct Reload {
     Log& log;
     /// No machine of a rig.
     bool alone;
+    bool records;
     /// Settings were taken, and no frame has been drawn with them yet.
     bool taken = false;
 
@@ -227,6 +241,9 @@ struct Reload {
         const config::Config& now = settings.config();
         world.take_settings();
         log.set_threshold(severity_of(now.log.level));
+        if (records)
+            log.warning(
+                "the recording does not hold settings read anew: a replay of it goes by those of its start");
         if (quality(before).error_codes == quality(now).error_codes) return;
         if (!alone)
             log.warning(
@@ -327,7 +344,8 @@ void run(const DaemonOptions& options, const config::Config& start, const config
     service.ready(outside.heard(options, config));
     painter.before_anew([&service] { service.frame_takes_long(); });
     const std::int64_t cpu_before_ns = clock.processor_ns();
-    run_frames(loop, stop, {settings, service, clock, world, painter, log, !in_rig},
+    run_frames(loop, stop,
+               {settings, service, clock, world, painter, log, !in_rig, outside.recorder() != nullptr},
                !options.replay_path.empty());
     const std::int64_t cpu_ns = clock.processor_ns() - cpu_before_ns;
     if (images) images->finish();
@@ -340,6 +358,10 @@ void run(const DaemonOptions& options, const config::Config& start, const config
     if (!options.report_path.empty()) write_report(options.report_path, report);
     fmt::print("{}", to_table(report));
     if (images && report.images_failed > 0) throw std::runtime_error(images->first_error());
+    if (const std::string fault = incomplete_file(options, hashes.get(), table.get(), events, outside);
+        !fault.empty()) {
+        throw std::runtime_error(fault);
+    }
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ void FlightGearInput::report_time(std::int64_t unix_s, std::int64_t arrival_ns) 
     if (!time) return;
     ephemeris::UtcClockTime utc = ephemeris::UtcClockTime::from_unix(time->day * kSecondsPerDay);
     utc.advance(time->second_of_day);
-    world_.report_time(source_, utc, true);
+    world_.report_time(source_, utc, 1.0);
 }
 
 }  // namespace skyig::server

@@ -40,4 +40,8 @@ void FrameHashes::add(std::uint64_t frame, std::string_view channel,
     std::fwrite(line.data(), 1, std::min(end.size, line.size()), file_.get());
 }
 
+bool FrameHashes::finish() noexcept {
+    return std::fflush(file_.get()) == 0 && std::ferror(file_.get()) == 0;
+}
+
 }  // namespace skyig::server

@@ -21,6 +21,8 @@ class FrameHashes {
     explicit FrameHashes(const std::string& path);
 
     void add(std::uint64_t frame, std::string_view channel, std::span<const std::byte> rgba) noexcept;
+    /// No more comes. \return whether the file holds all
+    [[nodiscard]] bool finish() noexcept;
 
   private:
     struct CloseFile {

@@ -41,4 +41,8 @@ void FrameTable::add(const FrameRow& row, const FrameTimes& times) noexcept {
                  static_cast<std::intmax_t>(row.shown_ns));
 }
 
+bool FrameTable::finish() noexcept {
+    return std::fflush(file_.get()) == 0 && std::ferror(file_.get()) == 0;
+}
+
 }  // namespace skyig::server

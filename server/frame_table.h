@@ -26,8 +26,8 @@ struct FrameRow {
 };
 
 /// Columns frame, utc_ns, slots, late, arrivals, then microseconds: input_us, shared_us, one for each channel
-/// by its name, frame_us; last shown_ns. Written by the frame loop itself, 64 KiB at a time: for measuring, not for a
-/// cockpit.
+/// by its name, frame_us; last shown_ns. Written by the frame loop itself, 64 KiB at a time: for measuring,
+/// not for a cockpit.
 class FrameTable {
   public:
     /// \throws std::runtime_error with one line when the file cannot be made
@@ -35,6 +35,8 @@ class FrameTable {
 
     /// `times` with this frame added last.
     void add(const FrameRow& row, const FrameTimes& times) noexcept;
+    /// No more comes. \return whether the file holds all
+    [[nodiscard]] bool finish() noexcept;
 
   private:
     struct CloseFile {

@@ -42,7 +42,8 @@ std::unique_ptr<rig::Link> open_link(const config::Config& config, const std::st
     rig::DdsSettings settings{.domain = static_cast<std::uint32_t>(rig.domain),
                               .interface = self.interface.empty() ? self.address : self.interface,
                               .peers = {},
-                              .period_ns = std::llround(config.daemon.period_s() * 1e9)};
+                              .period_ns = std::llround(config.daemon.period_s() * 1e9),
+                              .may_lead = RigPart::may_lead(rig, node)};
     for (const config::RigNode& other : rig.nodes)
         if (other.name != node) settings.peers.push_back(other.address);
     return value_or_throw(rig::open_dds_link(settings));

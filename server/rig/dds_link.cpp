@@ -174,6 +174,8 @@ struct Wants {
     int kept = 1;
     bool for_late = false;
     dds_duration_t deadline = DDS_INFINITY;
+    bool writes = true;
+    bool reads = true;
 };
 
 /// One topic, to all and from all others.
@@ -182,7 +184,9 @@ class Channel {
   public:
     Channel(dds_entity_t participant, const char* name, const dds_topic_descriptor_t& type,
             const Wants& wants)
-        : samples_(type), topic_(dds_create_topic(participant, &type, name, nullptr, nullptr)) {
+        : samples_(type),
+          wants_(wants),
+          topic_(dds_create_topic(participant, &type, name, nullptr, nullptr)) {
         dds_qos_t* qos = dds_create_qos();
         dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, kMostBlocking);
         dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, wants.kept);
@@ -193,14 +197,15 @@ class Channel {
         dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, kLease);
         dds_qset_ownership(qos, DDS_OWNERSHIP_SHARED);
         dds_qset_ignorelocal(qos, DDS_IGNORELOCAL_PARTICIPANT);
-        writer_ = Entity(dds_create_writer(participant, topic_.get(), qos, nullptr));
-        reader_ = Entity(dds_create_reader(participant, topic_.get(), qos, nullptr));
+        if (wants.writes) writer_ = Entity(dds_create_writer(participant, topic_.get(), qos, nullptr));
+        if (wants.reads) reader_ = Entity(dds_create_reader(participant, topic_.get(), qos, nullptr));
         dds_delete_qos(qos);
         if (reader_.made()) ready_ = Entity(dds_create_readcondition(reader_.get(), DDS_ANY_STATE));
     }
 
     [[nodiscard]] bool made() const noexcept {
-        return topic_.made() && writer_.made() && reader_.made() && ready_.made();
+        return topic_.made() && writer_.made() == wants_.writes && reader_.made() == wants_.reads &&
+               ready_.made() == wants_.reads;
     }
     [[nodiscard]] dds_entity_t ready() const noexcept { return ready_.get(); }
 
@@ -212,7 +217,7 @@ class Channel {
 
     template <class Message>
     [[nodiscard]] bool take(Message& message) {
-        for (;;) {
+        while (wants_.reads) {
             void* place = &samples_.in;
             dds_sample_info_t info;
             if (dds_take(reader_.get(), &place, &info, 1, 1) != 1) return false;
@@ -221,6 +226,7 @@ class Channel {
             get(samples_.in, message);
             return true;
         }
+        return false;
     }
 
     void count(LinkCounts& counts) const noexcept {
@@ -237,6 +243,7 @@ class Channel {
 
   private:
     Samples<Sample> samples_;
+    Wants wants_;
     Entity topic_;
     Entity writer_{0};
     Entity reader_{0};
@@ -249,16 +256,23 @@ class DdsLink final : public Link {
         : domain_(std::move(domain)),
           participant_(std::move(participant)),
           frames_(participant_.get(), "skyig_frame_state_1", skyig_rig_v1_FrameState_desc,
-                  {DdsSettings::kKeptStates, true, 2 * settings.period_ns}),
-          shows_(participant_.get(), "skyig_frame_show_1", skyig_rig_v1_FrameShow_desc, {}),
-          nodes_(participant_.get(), "skyig_node_state_1", skyig_rig_v1_NodeState_desc, {1, true}),
+                  {.kept = DdsSettings::kKeptStates,
+                   .for_late = true,
+                   .deadline = 2 * settings.period_ns,
+                   .writes = settings.may_lead}),
+          shows_(participant_.get(), "skyig_frame_show_1", skyig_rig_v1_FrameShow_desc,
+                 {.writes = settings.may_lead}),
+          nodes_(participant_.get(), "skyig_node_state_1", skyig_rig_v1_NodeState_desc,
+                 {.for_late = true, .reads = settings.may_lead}),
           waits_(dds_create_waitset(participant_.get())) {
-        for (const dds_entity_t ready : {frames_.ready(), shows_.ready(), nodes_.ready()})
-            if (waits_.made() && ready > 0) attached_ += dds_waitset_attach(waits_.get(), ready, 0) == 0;
+        for (const dds_entity_t ready : {frames_.ready(), shows_.ready(), nodes_.ready()}) {
+            if (ready <= 0) continue;
+            unattached_ += waits_.made() && dds_waitset_attach(waits_.get(), ready, 0) == 0 ? 0 : 1;
+        }
     }
 
     [[nodiscard]] bool made() const noexcept {
-        return frames_.made() && shows_.made() && nodes_.made() && attached_ == 3;
+        return frames_.made() && shows_.made() && nodes_.made() && unattached_ == 0;
     }
 
     void send(const FrameMessage& message) override {
@@ -289,7 +303,7 @@ class DdsLink final : public Link {
     Channel<DdsShow> shows_;
     Channel<DdsNode> nodes_;
     Entity waits_;
-    int attached_ = 0;
+    int unattached_ = 0;
     LinkCounts counts_;
 };
 

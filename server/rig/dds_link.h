@@ -33,6 +33,9 @@ struct DdsSettings {
     /// Of a frame.
     std::int64_t period_ns = 33'333'333;
 
+    /// Else it neither tells frames nor hears of other nodes, so that their words go to those who may lead
+    /// alone.
+    bool may_lead = true;
     /// Programs of the rig on one machine that are looked for, at most.
     int most_programs = 4;
 

@@ -33,7 +33,7 @@ struct FollowerCounts {
     std::uint64_t outranked = 0;   ///< of a second leader
     std::uint64_t stale = 0;       ///< of frames that are over, and of runs of a leader that are
     std::uint64_t missed = 0;      ///< frames that never came
-    std::uint64_t repeats = 0;     ///< drawn after the leader had gone on: the picture before stayed
+    std::uint64_t repeats = 0;     ///< the leader had gone on: the picture before stayed
     std::uint64_t late = 0;        ///< shown, but after the leader's word
     std::uint64_t leaders = 0;     ///< followed one after the other
 };
@@ -57,8 +57,11 @@ class Follower {
         return frames_[(first_ + index) % kMostWaiting];
     }
     [[nodiscard]] const FrameState& newest() const noexcept { return frame(waiting_ - 1); }
-    /// They have been prepared.
-    void clear() noexcept { waiting_ = 0; }
+    /// They have been prepared; in the place of all but the newest the picture before stayed.
+    void clear() noexcept {
+        if (draws_ && waiting_ > 1) counts_.repeats += waiting_ - 1;
+        waiting_ = 0;
+    }
 
     /// Says that a frame's pixels are finished.
     void tell_drawn(std::uint64_t frame, std::int64_t drawing_ns);

@@ -34,6 +34,8 @@ Machine::Machine(MachineSettings settings, const Key& key, const FrameCoder& cod
                .rank = rank_,
                .nodes = others(settings_),
                .wait_ns = settings_.replays ? settings_.replay_wait_ns : settings_.wait_ns,
+               // However long a node of a replay takes, nobody waits for its display.
+               .lost_after_ns = settings_.replays ? settings_.replay_wait_ns : settings_.node_lost_after_ns,
                .waits_for_all = settings_.replays},
               key, coder, link, clock, log),
       began_ns_(clock.monotonic_ns()) {}

@@ -31,6 +31,8 @@ struct MachineSettings {
     /// A leader that is silent for so long is lost; each further stand-in gives the one before it half as
     /// long again.
     std::int64_t lost_after_ns = 500'000'000;
+    /// The same of a node, which is then waited for no more.
+    std::int64_t node_lost_after_ns = 1'000'000'000;
     /// Who can do nothing about it waits so long for its word on a frame that is drawn.
     std::int64_t patience_ns = 10'000'000'000;
     /// Of a replay: for nodes that are not there, and for one that is to draw a frame.

@@ -10,6 +10,7 @@
 #include "server/start_weather/genus.h"
 #include "server/start_weather/layers.h"
 #include "server/start_weather/precipitation.h"
+#include "server/world/weather_limits.h"
 
 namespace skyig::server::weather {
 namespace {
@@ -165,7 +166,8 @@ std::optional<ToldLayer> told_layer(const WeatherControl& control, const Meaning
     told.state = state_of(control, *kind, meaning);
     if (carrier_m) {
         // Full at the entity, nothing at the radius, as far as a layer's shape can say so.
-        const double radius_m = static_cast<double>(control.transition_band);
+        const double radius_m =
+            std::min(static_cast<double>(control.transition_band), world::kThickestLayer_m);
         told.state.base_m = *carrier_m - 0.5 * radius_m;
         told.state.thickness_m = radius_m;
         told.state.bottom_band_m = told.state.top_band_m = 0.5 * radius_m;

@@ -129,6 +129,7 @@ struct Counters {
     std::uint64_t view_offset = 0;       ///< an eye further than config::kMaxOffset_m from what carries it
     std::uint64_t frustum_refused = 0;   ///< half angles that leave no picture
     std::uint64_t replication_refused = 0;  ///< a pixel replication that no standard says
+    std::uint64_t weather_limited = 0;      ///< layers and regions beyond what can be drawn: the nearest is
     std::uint64_t weather_full = 0;         ///< no room for another region or layer
     std::uint64_t surface_full = 0;         ///< no room for another sea, wave or condition of the ground
     std::uint64_t surface_entity = 0;       ///< sea, waves or ground that hang on an entity
@@ -167,6 +168,7 @@ inline constexpr std::array kCounterNames{
     NamedCounter{"view_offset", &Counters::view_offset},
     NamedCounter{"frustum_refused", &Counters::frustum_refused},
     NamedCounter{"replication_refused", &Counters::replication_refused},
+    NamedCounter{"weather_limited", &Counters::weather_limited},
     NamedCounter{"weather_full", &Counters::weather_full},
     NamedCounter{"surface_full", &Counters::surface_full},
     NamedCounter{"surface_entity", &Counters::surface_entity},

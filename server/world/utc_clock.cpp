@@ -29,6 +29,8 @@ std::optional<ephemeris::UtcClockTime> time_of(
 bool UtcClock::apply(const protocol::cigi::CelestialSphereControl& control) noexcept {
     const bool ran = running_;
     running_ = control.ephemeris_enable;
+    // CIGI knows no other.
+    rate_ = 1.0;
     if (!control.date_time_valid) {
         last_setting_.reset();
         repeats_ = false;
@@ -46,7 +48,7 @@ bool UtcClock::apply(const protocol::cigi::CelestialSphereControl& control) noex
 
 void UtcClock::advance(double step_s) noexcept {
     if (!running_) return;
-    now_.advance(step_s);
+    now_.advance(rate_ * step_s);
     silent_s_ += step_s;
     if (silent_s_ > kRepeatsWithin_s) repeats_ = false;
 }

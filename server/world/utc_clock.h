@@ -10,7 +10,11 @@ namespace skyig::server::world {
 
 class UtcClock {
   public:
-    UtcClock(const ephemeris::UtcClockTime& start, bool running) noexcept : now_(start), running_(running) {}
+    /// \param rate  of its seconds to those that pass, >= 0; 0 is frozen
+    UtcClock(const ephemeris::UtcClockTime& start, double rate) noexcept
+        : now_(start), running_(rate > 0.0), rate_(running_ ? rate : 1.0) {}
+    UtcClock(const ephemeris::UtcClockTime& start, bool running) noexcept
+        : UtcClock(start, running ? 1.0 : 0.0) {}
 
     /// Date, time and `ephemeris_enable` of a Celestial Sphere Control. Hosts exist that repeat the same date
     /// in every message, and CIGI 3.3 has no seconds, so that obeying them would hold the clock at second 0.
@@ -35,6 +39,7 @@ class UtcClock {
   private:
     ephemeris::UtcClockTime now_;
     bool running_;
+    double rate_;
     std::optional<ephemeris::UtcClockTime> last_setting_;
     /// Since the last valid setting, of the running clock.
     double silent_s_ = 0.0;

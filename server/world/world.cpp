@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "server/world/conditions.h"
+#include "server/world/weather_limits.h"
 
 namespace skyig::server::world {
 
@@ -264,8 +265,11 @@ void World::operator()(const cigi::AtmosphereControl& packet) {
     air_.model_enabled = packet.model_enable;
     air_.humidity_pct = packet.humidity;
     air_.visibility_m = static_cast<double>(packet.visibility);
-    air_.wind_horizontal_m_s = static_cast<double>(packet.wind_horizontal);
-    air_.wind_vertical_m_s = static_cast<double>(packet.wind_vertical);
+    if (!take(static_cast<double>(packet.wind_horizontal), 0.0, kMostWind_m_s, air_.wind_horizontal_m_s))
+        ++counters_.air_refused;
+    if (!take(static_cast<double>(packet.wind_vertical), -kMostUpdraught_m_s, kMostUpdraught_m_s,
+              air_.wind_vertical_m_s))
+        ++counters_.air_refused;
     air_.wind_from_deg = static_cast<double>(packet.wind_direction);
     if (!take(static_cast<double>(packet.air_temperature), -100.0, 100.0, air_.temperature_c))
         ++counters_.air_refused;
@@ -274,12 +278,37 @@ void World::operator()(const cigi::AtmosphereControl& packet) {
 }
 
 void World::operator()(const cigi::WeatherControl& packet) {
-    if (obeys(config::Aspect::kWeather) && !weather_.set(packet)) ++counters_.weather_full;
+    if (obeys(config::Aspect::kWeather)) keep_weather(packet);
+}
+
+void World::keep_weather(const cigi::WeatherControl& told) {
+    keep_limited(told);
+}
+
+void World::keep_weather(const cigi::EnvRegionControl& told) {
+    keep_limited(told);
+}
+
+template <class Weather>
+void World::keep_limited(Weather told) {
+    if (limit(told)) {
+        ++counters_.weather_limited;
+        outbox_.messages.add(
+            Matter::kPacketIgnored,
+            "weather beyond what is drawn (wind {:g} m/s, {:g} m thick): the nearest is taken", kMostWind_m_s,
+            kThickestLayer_m);
+        log_.limited(
+            "weather limited", kRepeatAfter_s, Severity::kWarning,
+            "weather beyond what can be drawn: winds to {} m/s, bases to {} m, {} m thick, areas to {} m; "
+            "the nearest is taken",
+            kMostWind_m_s, kHighestLayer_m, kThickestLayer_m, 2.0 * kLargestArea_m);
+    }
+    if (!weather_.set(told)) ++counters_.weather_full;
 }
 
 void World::operator()(const cigi::EnvRegionControl& packet) {
     if (!obeys(config::Aspect::kWeather)) return;
-    if (!weather_.set(packet)) ++counters_.weather_full;
+    keep_weather(packet);
     if (packet.region_state == cigi::RegionState::kDestroyed) surfaces_.forget_region(packet.region_id);
 }
 

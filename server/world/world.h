@@ -73,7 +73,7 @@ class World {
     void report(std::size_t source, const OwnshipReport& report);
     void report(std::size_t source, const AirReport& report);
     void report(std::size_t source, const protocol::cigi::WeatherControl& layer);
-    void report_time(std::size_t source, const ephemeris::UtcClockTime& utc, bool running);
+    void report_time(std::size_t source, const ephemeris::UtcClockTime& utc, double rate);
 
     /// The settings have changed: sources' rights hold from now on, start air and weather from the next
     /// Standby, or now where nobody has the say about weather. Allocates.
@@ -193,6 +193,11 @@ class World {
     /// False, and counted, for a place that cannot be drawn.
     [[nodiscard]] bool is_drawn(const ephemeris::Geodetic& position, std::uint16_t entity_id = 0);
     [[nodiscard]] bool listens(std::size_t source, config::Aspect aspect) noexcept;
+    /// Layers and regions, brought within what can be drawn.
+    void keep_weather(const protocol::cigi::WeatherControl& told);
+    void keep_weather(const protocol::cigi::EnvRegionControl& told);
+    template <class Weather>
+    void keep_limited(Weather told);
     void note_view(ViewResult result, std::uint16_t view_id);
     void note_clock_step(const ephemeris::UtcClockTime& before);
 

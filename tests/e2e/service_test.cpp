@@ -244,9 +244,20 @@ TEST(Service, AFullDiskCostsTheRecordingOnly) {
     const Site site;
     const Finished finished = run({SKYIGD_PROGRAM, "--config", site.config_path, "--headless", "--frames",
                                    "40", "--record", "/dev/full", "--report", site.report_path});
-    EXPECT_EQ(finished.status, 0) << finished.err;
+    EXPECT_EQ(finished.status, 1) << "what an option asks for is part of the work";
     EXPECT_THAT(finished.err, HasSubstr("/dev/full: writing failed; the recording ends there"));
+    EXPECT_THAT(finished.err, Not(HasSubstr("too slow")));
     EXPECT_EQ(Json::parse(read_text(site.report_path))["frames"], 40);
+}
+
+TEST(Service, AFullDiskUnderFilesThatWereAskedForIsAFailure) {
+    const Site site;
+    for (const char* const option : {"--hashes", "--times", "--events"}) {
+        const Finished finished = run({SKYIGD_PROGRAM, "--config", site.config_path, "--headless", "--frames",
+                                       "4", option, "/dev/full"});
+        EXPECT_EQ(finished.status, 1) << option;
+        EXPECT_THAT(finished.err, HasSubstr("skyigd: /dev/full: not all could be written")) << option;
+    }
 }
 
 /// A shell's words in a mount namespace of their own, where `directory` is a disk that takes no writes.

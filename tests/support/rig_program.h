@@ -26,6 +26,7 @@ struct RigProgram {
                                            .interface = "lo",
                                            .peers = {"127.0.0.1"},
                                            .period_ns = static_cast<std::int64_t>(1e9 / kRate_hz),
+                                           .may_lead = node == 0,
                                            .most_programs = 40})) {
         if (!link) return;
         server::rig::MachineSettings settings{

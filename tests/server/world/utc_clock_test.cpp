@@ -143,5 +143,21 @@ TEST(UtcClock, ImpossibleDateChangesNothing) {
     EXPECT_EQ(seconds_to(clock, "2020-01-01T00:00:00Z"), 0.0);
 }
 
+TEST(UtcClockRate, IsTheBussUntilAHostSetsTheClock) {
+    const auto start = *ephemeris::parse_utc("2026-06-21T12:00:00Z");
+    UtcClock clock(start, 10.0);
+    clock.advance(6.0);
+    EXPECT_EQ(ephemeris::to_iso(clock.utc()), "2026-06-21T12:01:00Z");
+    protocol::cigi::CelestialSphereControl control;
+    control.ephemeris_enable = true;
+    ASSERT_TRUE(clock.apply(control));
+    clock.advance(6.0);
+    EXPECT_EQ(ephemeris::to_iso(clock.utc()), "2026-06-21T12:01:06Z");
+    UtcClock frozen(start, 0.0);
+    frozen.advance(6.0);
+    EXPECT_FALSE(frozen.running());
+    EXPECT_EQ(frozen.utc(), start);
+}
+
 }  // namespace
 }  // namespace skyig::server::world

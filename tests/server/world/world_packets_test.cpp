@@ -109,6 +109,60 @@ TEST(WorldPackets, OtherAndAttachedEntitiesDoNotMoveTheEye) {
     EXPECT_EQ(bench.lines_with("ownship is attached"), 1U);
 }
 
+TEST(WorldPackets, WindsThatNoAirHasAreRefused) {
+    HostBench bench;
+    protocol::cigi::AtmosphereControl sent;
+    sent.model_enable = true;
+    sent.air_temperature = 10.0F;
+    sent.pressure = 1000.0F;
+    sent.visibility = 9000.0F;
+    sent.wind_horizontal = 12.0F;
+    bench.send(kHostA, sent);
+    sent.wind_horizontal = 3.4e38F;
+    sent.wind_vertical = -3.4e38F;
+    bench.send(kHostA, sent);
+    EXPECT_EQ(bench.world.air().wind_horizontal_m_s, 12.0);
+    EXPECT_EQ(bench.world.air().wind_vertical_m_s, 0.0);
+    EXPECT_EQ(bench.world.counters().air_refused, 2U);
+}
+
+TEST(WorldPackets, LayersBeyondWhatIsDrawnAreBroughtToTheNearest) {
+    HostBench bench;
+    protocol::cigi::WeatherControl layer;
+    layer.scope = protocol::cigi::WeatherScope::kGlobal;
+    layer.layer_id = 1;
+    layer.weather_enable = true;
+    layer.cloud_type = protocol::cigi::CloudType::kCumulus;
+    layer.coverage = 50.0F;
+    layer.base_elevation = 1000.0F;
+    layer.thickness = 800.0F;
+    layer.transition_band = 100.0F;
+    layer.wind_horizontal = 20.0F;
+    bench.send(kHostA, layer);
+    EXPECT_EQ(bench.world.counters().weather_limited, 0U);
+    layer.base_elevation = 3.4e38F;
+    layer.thickness = 1e7F;
+    layer.transition_band = 3.4e38F;
+    layer.wind_horizontal = 3.4e38F;
+    layer.wind_vertical = -3.4e38F;
+    bench.send(kHostA, layer);
+    EXPECT_EQ(bench.world.counters().weather_limited, 1U);
+    EXPECT_EQ(bench.lines_with("weather beyond what can be drawn"), 1U);
+    ASSERT_EQ(bench.world.weather().layers().size(), 1U);
+    const protocol::cigi::WeatherControl& kept = bench.world.weather().layers().front();
+    EXPECT_EQ(kept.base_elevation, 60'000.0F);
+    EXPECT_EQ(kept.thickness, 20'000.0F);
+    EXPECT_EQ(kept.transition_band, 20'000.0F);
+    EXPECT_EQ(kept.wind_horizontal, 200.0F);
+    EXPECT_EQ(kept.wind_vertical, -100.0F);
+    // A bus may reckon beyond what a float holds.
+    layer.thickness = std::numeric_limits<float>::infinity();
+    layer.wind_horizontal = std::numeric_limits<float>::infinity();
+    bench.world.report(0, layer);
+    EXPECT_EQ(bench.world.weather().layers().front().wind_horizontal, 200.0F);
+    EXPECT_EQ(bench.world.weather().layers().front().thickness, 20'000.0F);
+}
+
 TEST(WorldPackets, ImpossibleHeightsAreRefused) {
     HostBench bench;
     bench.send(kHostA, at(10.0, 20.0, 30.0));
