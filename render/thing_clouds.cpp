@@ -1,15 +1,12 @@
 #include "render/thing_clouds.h"
 
 #include "render/cloud_pass.h"
+#include "render/texture_units.h"
 
 namespace skyig::render {
 
 namespace {
 
-// As in cloud/things.glsl.
-constexpr int kFirstUnit = 8;
-constexpr int kShadowUnit = 11;
-constexpr int kPatchUnit = 12;
 constexpr std::array<float, 4> kClear{0.0F, 0.0F, 0.0F, 1.0F};
 
 using cloud::ShadowMap;
@@ -110,9 +107,9 @@ void ThingClouds::prepare(const gl::Program& program, const CloudFrame& clouds, 
 void ThingClouds::bind(const gl::Program& program, bool shaded) const {
     program.set(shaded_, shaded && shadow_told_ ? 1.0F : 0.0F);
     for (std::size_t i = 0; clouds_told_ && i < maps_.size(); ++i)
-        gl::bind_texture(kFirstUnit + static_cast<int>(i), maps_[i].name());
-    gl::bind_texture(kShadowUnit, shadow_.name());
-    gl::bind_texture(kPatchUnit, patches_.name());
+        gl::bind_texture(texture_unit::kThingClouds + static_cast<int>(i), maps_[i].name());
+    gl::bind_texture(texture_unit::kThingShadow, shadow_.name());
+    gl::bind_texture(texture_unit::kThingPatches, patches_.name());
 }
 
 }  // namespace skyig::render

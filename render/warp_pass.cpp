@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "render/gl/draw.h"
+#include "render/texture_units.h"
 #include "render/warp/warp.h"
 
 namespace skyig::render {
@@ -14,7 +15,6 @@ namespace skyig::render {
 namespace {
 
 // As in common/place.glsl.
-constexpr int kUnit = 8;
 constexpr unsigned kBinding = 0;
 
 // Cells on a side of the mesh that a flat picture is resampled with.
@@ -86,7 +86,7 @@ WarpPass::WarpPass(std::span<const Channel> channels) : channels_(channels), war
 void WarpPass::bind(std::size_t channel) const {
     const std::optional<Bound>& bound = warped_[channel] ? warped_[channel] : flat_;
     if (!bound) return;
-    gl::bind_texture(kUnit, bound->nodes.name());
+    gl::bind_texture(texture_unit::kWarp, bound->nodes.name());
     bound->block.bind(kBinding);
 }
 
@@ -97,7 +97,7 @@ glm::dmat4 WarpPass::shown_from_clip(std::size_t channel) const noexcept {
 
 void WarpPass::bind_flat() const {
     if (!flat_) return;
-    gl::bind_texture(kUnit, flat_->nodes.name());
+    gl::bind_texture(texture_unit::kWarp, flat_->nodes.name());
     flat_->block.bind(kBinding);
 }
 

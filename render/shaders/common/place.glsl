@@ -1,7 +1,7 @@
 // Where a channel shows what stands at a place of its frustum's flat picture: there, unless the channel is warped
 // (render/warp/warp.h). Places are in clip space, -1..1 across what is shown.
 #ifdef SKYIG_WARPED
-layout(binding = 8) uniform sampler2D u_warp;
+layout(binding = 13) uniform sampler2D u_warp;
 layout(std140, binding = 0) uniform Warp { vec4 u_warp_node; };  // (scale, shift) of a place to a node's number
 
 // (right, up) to where it is shown; the size of a bit of the picture over that of the bit of screen that shows it.

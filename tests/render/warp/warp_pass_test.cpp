@@ -8,7 +8,9 @@
 #include <cstdio>
 #include <vector>
 
+#include "render/gl/texture.h"
 #include "tests/render/direction_dome.h"
+#include "tests/render/fake_clouds.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/render/warps.h"
 
@@ -79,6 +81,40 @@ TEST_F(WarpedPicture, IdentityChangesNoCode) {
         add_view(scene, symmetric_frustum(30.0, kWidth, kHeight), view_from_enu(120.0, 3.0, 5.0));
         EXPECT_TRUE(draw(flat, scene)[0].rgba == draw(warped, scene)[0].rgba) << name;
     }
+}
+
+// What follows another renderer's things in a frame is still moved by the warp, not by what their clouds left
+// bound.
+TEST_F(WarpedPicture, MoonsGlareStandsWhereItDoesWithoutAWarpWhenThingsAndCloudsAreDrawn) {
+    const FakeSheet sheet{.wavelength_m = 0.0,
+                          .least_transmittance = 0.7,
+                          .most_transmittance = 0.7,
+                          .light_cd_m2 = glm::vec3{0.4F}};
+    Scene scene = make_scene(-35.0, 90.0, 12.0, 270.0, 300.0);
+    add_layer(scene, sheet);
+    add_view(scene, symmetric_frustum(30.0, kWidth, kHeight), view_from_enu(270.0, 0.0, 0.0));
+    constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
+    gl::Texture colour{gl::TexelFormat::kRgba32F, kWidth, kHeight};
+    gl::Texture depth{gl::TexelFormat::kR32F, kWidth, kHeight};
+    std::vector<float> depths(kPixels, 1.0F);
+    std::fill_n(depths.begin(), kPixels / 3, 0.2F);
+    colour.update(std::vector<float>(4 * kPixels, 0.01F));
+    depth.update(depths);
+    const auto picture_of = [&](const Channel& channel, bool glare) {
+        DisplaySettings display = undithered();
+        display.glare = glare;
+        Renderer renderer({channel}, display);
+        renderer.draw_clouds(fake_clouds(sheet));
+        std::vector<std::byte> rgba(4 * kPixels);
+        renderer.prepare(scene);
+        renderer.draw_scene(0, {colour.name(), depth.name(), 1000.0});
+        renderer.read_back(0, rgba);
+        return rgba;
+    };
+    const Channel flat{"only", kWidth, kHeight};
+    const std::vector<std::byte> glaring = picture_of(flat, true);
+    EXPECT_FALSE(glaring == picture_of(flat, false)) << "there is a glare to be moved";
+    EXPECT_TRUE(glaring == picture_of(warped_channel(identity_warp(kWidth, kHeight)), true));
 }
 
 TEST_F(WarpedPicture, SkyHasTheCodesOfTheDirectionsThatItsPixelsShow) {

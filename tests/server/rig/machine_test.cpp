@@ -292,6 +292,26 @@ TEST_F(RigMachines, ANodeWhoseClockWentBackIsHeardOnceItsFormerRunIsSilent) {
     EXPECT_TRUE(here());
 }
 
+TEST(RigReplay, WaitsForANodeThatDrawsForSeconds) {
+    FakeNetwork network;
+    Node right{network, "right", {"lead"}};
+    FakeLink& link = network.join();
+    const rig::FrameCoder coder;
+    Log log(network.clock, [](Severity, std::string_view) {});
+    rig::Machine lead(
+        {.self = {"lead", 1, "build", 7}, .leaders = {"lead"}, .nodes = {"lead", "right"}, .replays = true},
+        kKey, coder, link, network.clock, log);
+    link.meanwhile = [&right] { right.machine.follower().tell_alive(); };
+    ASSERT_TRUE(lead.await_work([] { return true; }));
+    lead.leader().tell(state_of(1));
+    const std::int64_t start_ns = network.clock.monotonic_ns();
+    link.meanwhile = [&] {
+        if (network.clock.monotonic_ns() - start_ns > 5000 * kMs) right.draw();
+    };
+    EXPECT_GE(lead.leader().await(1), 5000 * kMs);
+    EXPECT_EQ(lead.leader().counts().incomplete, 0U);
+}
+
 TEST_F(RigMachines, OfTwoThatLeadTheFirstOfTheSettingsGoesOn) {
     frame(1);
     left.draw();
