@@ -1,11 +1,10 @@
 // What the lock of a rig costs by its number of nodes: a leader and nodes that draw nothing, each a program
 // of its own on this machine, over Cyclone DDS on the loopback. Prints Markdown, as docs/rig.md has it.
-//   rig_bench [FRAMES]    frames of each rig at 30 Hz (150)
+//   rig_bench [FRAMES]    frames of each rig at 30 Hz (150); one run at a time on a machine
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -144,19 +143,19 @@ void print_estimate(const Row& few, const Row& most, int nodes) {
     constexpr double kWordBytes = 150.0;
     constexpr double kShowBytes = 50.0;
     constexpr double kBitsPerMs = 1e6;
-    const double growth_ms = (most.telling_ms - few.telling_ms) / (most.nodes - few.nodes);
-    const double telling_ms = few.telling_ms + growth_ms * (nodes - few.nodes);
+    // Together: where nodes share the leader's processors, what one takes the other lacks.
+    const double few_ms = few.telling_ms + few.wait_ms;
+    const double growth_ms = (most.telling_ms + most.wait_ms - few_ms) / (most.nodes - few.nodes);
     const auto wire_ms = [nodes](double bytes) { return 8.0 * nodes * (bytes + kRoundBytes) / kBitsPerMs; };
     const auto state_bytes = static_cast<double>(few.state_bytes);
-    const double all_ms =
-        std::max(telling_ms, wire_ms(state_bytes)) + wire_ms(kWordBytes) + wire_ms(kShowBytes);
     fmt::print(
-        "\nOn paper, {} nodes on 1 GbE at {:g} Hz: telling {:.1f} ms by the growth above; {:.0f} bytes of "
-        "state to "
-        "each hold the wire for {:.1f} ms, the word of each {:.1f} ms, \"show\" {:.1f} ms: {:.1f} of {:.1f} "
-        "ms.\n",
-        nodes, kRate_hz, telling_ms, state_bytes, wire_ms(state_bytes), wire_ms(kWordBytes),
-        wire_ms(kShowBytes), all_ms, 1e3 / kRate_hz);
+        "\nOn paper, {} nodes on 1 GbE at {:g} Hz: telling and waiting {:.1f} ms by their growth above, "
+        "where all "
+        "nodes share the processors of one machine; {:.0f} bytes of state to each hold the wire for {:.1f} "
+        "ms, the "
+        "word of each for {:.1f} ms, \"show\" for {:.1f} ms.\n",
+        nodes, kRate_hz, few_ms + growth_ms * (nodes - few.nodes), state_bytes, wire_ms(state_bytes),
+        wire_ms(kWordBytes), wire_ms(kShowBytes));
 }
 
 }  // namespace
