@@ -46,7 +46,8 @@ void Renderer::Impl::make_ready() noexcept {
         if (shows_screen && !patterns) patterns = std::make_unique<PatternPass>(placement);
         if (shows_screen && !texts) texts = std::make_unique<TextPass>();
         for (std::size_t i = 0; i < channels.size(); ++i) {
-            if (channels[i].elsewhere || !channels[i].warp || channels[i].drawing != WarpDrawing::kResampled) continue;
+            if (channels[i].elsewhere || !channels[i].warp || channels[i].drawing != WarpDrawing::kResampled)
+                continue;
             make_flat_picture(i);
             warps.make_resampling();
         }

@@ -150,7 +150,8 @@ monitor = "HDMI-1"
 
 TEST(EffectiveSettings, ReadBackAsTheSameWithDefaultsLeftOutAndGiven) {
     std::vector<std::string> texts;
-    for (const char* name : {"one-channel.toml", "three-channels.toml", "two-machines.toml", "instructor.toml"})
+    for (const char* name :
+         {"one-channel.toml", "three-channels.toml", "two-machines.toml", "instructor.toml"})
         texts.push_back(text_of(SKYIG_SOURCE_DIR "/config/examples/" + std::string(name)));
     texts.push_back(tests::with(kRich) + "[channel.viewport]\nwindow = \"all\"\n");
     for (const std::string& text : texts) {
