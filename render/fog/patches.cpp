@@ -6,6 +6,15 @@
 
 namespace skyig::render::fog {
 
+namespace {
+
+/// Over these depths patches go over into their mean. Fog that lies in patches is tens of metres deep;
+/// followed ray by ray, one of kilometres holds a frame up for seconds.
+constexpr double kShallow_m = 400.0;
+constexpr double kDeep_m = 600.0;
+
+}  // namespace
+
 PatchedFog in_patches(const Obscurant& obscurant, double ground_m) noexcept {
     PatchedFog fog{obscurant, {}};
     fog.patches.coverage = 0.0;
@@ -16,8 +25,11 @@ PatchedFog in_patches(const Obscurant& obscurant, double ground_m) noexcept {
     if (!stands || coverage >= 1.0) return fog;
     // The last gaps, which the ramp of coverage gives most of its time.
     const double even = std::max(coverage - CoverScale::kLast, 0.0) / (1.0 - CoverScale::kLast);
-    fog.even.extinction_per_m = even * obscurant.extinction_per_m;
+    const double depth_m = obscurant.top_m + obscurant.top_band_m - base_m;
+    const double mean = std::clamp((depth_m - kShallow_m) / (kDeep_m - kShallow_m), 0.0, 1.0);
+    fog.even.extinction_per_m = (even + (1.0 - even) * mean * coverage) * obscurant.extinction_per_m;
     fog.even.coverage = 1.0;
+    if (mean >= 1.0) return fog;
     CloudLayer& patches = fog.patches;
     patches.genus = CloudGenus::kFogPatches;
     patches.base_m = base_m;
@@ -25,7 +37,7 @@ PatchedFog in_patches(const Obscurant& obscurant, double ground_m) noexcept {
     patches.bottom_band_m = base_m > ground_m ? obscurant.bottom_band_m : 0.0;
     patches.top_band_m = obscurant.top_band_m;
     patches.coverage = coverage;
-    patches.extinction_per_m = (1.0 - even) * obscurant.extinction_per_m;
+    patches.extinction_per_m = (1.0 - even) * (1.0 - mean) * obscurant.extinction_per_m;
     patches.drift_m = obscurant.drift_m;
     patches.seed = obscurant.seed;
     patches.area = obscurant.area;

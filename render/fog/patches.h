@@ -6,7 +6,8 @@
 
 namespace skyig::render::fog {
 
-/// One layer of fog in two parts, whose extinctions add up to its own in the middle of a patch.
+/// One layer of fog in two parts, whose extinctions add up to its own in the middle of a patch while that is
+/// shallow; deep fog, of 600 m, is even with the mean of its coverage.
 struct PatchedFog {
     /// Covers all; 0 extinction: none of it.
     Obscurant even;

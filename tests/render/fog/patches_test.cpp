@@ -51,6 +51,23 @@ TEST(PatchedFog, GoesOverIntoEvenFogAsItsGapsClose) {
     EXPECT_EQ(before, 0.028);
 }
 
+TEST(PatchedFog, GoesOverIntoItsMeanAsItBecomesDeep) {
+    Obscurant asked = kFog;
+    asked.top_band_m = 0.0;
+    double before = 0.0;
+    for (int top_m = 300; top_m <= 3000; top_m += 10) {
+        asked.top_m = top_m;
+        const PatchedFog fog = in_patches(asked, 0.0);
+        const double patches = fog.patches.coverage > 0.0 ? fog.patches.extinction_per_m : 0.0;
+        EXPECT_NEAR(fog.even.extinction_per_m + 0.5 * patches, 0.5 * 0.028, 1e-15)
+            << "the mean stays: " << top_m;
+        EXPECT_GE(fog.even.extinction_per_m, before);
+        EXPECT_LT(fog.even.extinction_per_m - before, 0.06 * 0.028) << top_m;
+        before = fog.even.extinction_per_m;
+        EXPECT_EQ(fog.patches.coverage > 0.0, top_m < 600) << top_m;
+    }
+}
+
 TEST(PatchedFog, IsOfFogAlone) {
     for (const auto kind : {Obscurant::Kind::kHaze, Obscurant::Kind::kSmoke, Obscurant::Kind::kRain}) {
         Obscurant other = kFog;
