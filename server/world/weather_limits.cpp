@@ -1,16 +1,13 @@
 #include "server/world/weather_limits.h"
 
-#include <algorithm>
-
 namespace skyig::server::world {
 
 namespace {
 
 bool limit(float& value, double least, double most) noexcept {
-    const float limited = std::clamp(value, static_cast<float>(least), static_cast<float>(most));
-    const bool outside = limited != value;
-    value = limited;
-    return outside;
+    if (value >= static_cast<float>(least) && value <= static_cast<float>(most)) return false;
+    value = static_cast<float>(value > 0.0F ? most : least);
+    return true;
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ inline constexpr double kThickestLayer_m = 20'000.0;
 /// Round an entity, and sides of regions, m: half round the Earth.
 inline constexpr double kLargestArea_m = 20'000'000.0;
 
-/// Brings what lies outside to the nearest that can be drawn; infinite counts as large.
-/// \return false where nothing lay outside
+/// Brings what lies outside to the nearest that can be drawn; infinite counts as large, no number as the
+/// least. \return whether anything lay outside
 bool limit(protocol::cigi::WeatherControl& layer) noexcept;
 bool limit(protocol::cigi::EnvRegionControl& region) noexcept;
 

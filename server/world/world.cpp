@@ -56,7 +56,7 @@ std::string_view order_name(cigi::ByteOrder order) {
 
 /// Takes over what a sky can have; hosts that care for visibility only leave the others at 0.
 bool take(double value, double min, double max, double& out) noexcept {
-    if (value < min || value > max) return false;
+    if (!(value >= min && value <= max)) return false;
     out = value;
     return true;
 }

@@ -1,5 +1,6 @@
 // The world as sources without CIGI change it.
 #include <cmath>
+#include <glm/glm.hpp>
 
 #include "server/world/weather_limits.h"
 #include "server/world/world.h"
@@ -51,7 +52,12 @@ void World::report(std::size_t source, const OwnshipReport& report) {
         own_.track.report_position(*report.position, elapsed_s_, report.sender_s);
         ownship_.placed_by_host = true;
     }
-    if (report.velocity_enu_m_s) own_.track.report_velocity(*report.velocity_enu_m_s, elapsed_s_);
+    if (report.velocity_enu_m_s) {
+        if (glm::length(*report.velocity_enu_m_s) <= ToldMotion::kMostSpeed_m_s)
+            own_.track.report_velocity(*report.velocity_enu_m_s, elapsed_s_);
+        else
+            ++counters_.rate_refused;
+    }
     if (!report.yaw_deg && !report.pitch_deg && !report.roll_deg) return;
     // What is told by one is carried on from the angles as they were told last, not as they are drawn.
     const Pose told = own_.track.told();

@@ -161,6 +161,24 @@ TEST(WorldPackets, LayersBeyondWhatIsDrawnAreBroughtToTheNearest) {
     bench.world.report(0, layer);
     EXPECT_EQ(bench.world.weather().layers().front().wind_horizontal, 200.0F);
     EXPECT_EQ(bench.world.weather().layers().front().thickness, 20'000.0F);
+    layer.wind_horizontal = std::numeric_limits<float>::quiet_NaN();
+    bench.world.report(0, layer);
+    EXPECT_EQ(bench.world.weather().layers().front().wind_horizontal, 0.0F);
+}
+
+TEST(WorldPackets, ABussVelocityThatNoCraftHasIsRefused) {
+    HostBench bench;
+    bench.send(kHostA, at(10.0, 20.0, 30.0));
+    OwnshipReport report;
+    report.position = ephemeris::Geodetic{11.0, 20.0, 30.0};
+    for (const double speed_m_s : {1e30, -13'000.0, std::numeric_limits<double>::quiet_NaN()}) {
+        report.velocity_enu_m_s = glm::dvec3{speed_m_s, 0.0, 0.0};
+        bench.world.report(0, report);
+        bench.world.advance(1.0);
+        EXPECT_NEAR(bench.world.ownship().position.height_m, 30.0, 1.0) << speed_m_s;
+        EXPECT_NEAR(bench.world.ownship().position.longitude_deg, 20.0, 1e-3) << speed_m_s;
+    }
+    EXPECT_EQ(bench.world.counters().rate_refused, 3U);
 }
 
 TEST(WorldPackets, ImpossibleHeightsAreRefused) {
