@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -80,7 +82,12 @@ protocol::Result<Key, std::string> parse_key(std::string_view text) {
 
 protocol::Result<Key, std::string> read_key(const std::string& path) {
     std::ifstream file(path);
-    if (!file) return protocol::Error{fmt::format("{}: the rig's key cannot be read", path)};
+    if (!file) {
+        return protocol::Error{
+            fmt::format("{}: the rig's key cannot be read ({}); it must hold 32 hexadecimal digits, "
+                        "the same on all machines",
+                        path, std::strerror(errno))};
+    }
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     auto key = parse_key(text);
     if (!key) return protocol::Error{fmt::format("{}: {}", path, key.error())};

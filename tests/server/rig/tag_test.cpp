@@ -32,7 +32,9 @@ TEST(Key, IsReadFromHexadecimalDigitsAndRefusedOtherwise) {
     EXPECT_EQ(parse_key("0001").error(),
               "holds 4 characters; it must hold 32 hexadecimal digits, as \"openssl rand "
               "-hex 16\" writes them");
-    EXPECT_EQ(read_key("/nowhere/key").error(), "/nowhere/key: the rig's key cannot be read");
+    EXPECT_EQ(read_key("/nowhere/key").error(),
+              "/nowhere/key: the rig's key cannot be read (No such file or directory); it must hold 32 "
+              "hexadecimal digits, the same on all machines");
 }
 
 TEST(Key, IsToldOpenWhereEveryUserCanReadItsFile) {
