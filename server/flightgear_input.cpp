@@ -20,7 +20,7 @@ void FlightGearInput::take(const protocol::transport::Datagram& datagram) {
     const auto packet = flightgear::decode_net_fdm(datagram.bytes);
     if (!packet) {
         ++refused_[static_cast<std::size_t>(packet.error().reason)];
-        log_.limited("flight model refused", kRepeatAfter_s, Severity::kWarning,
+        log_.limited({"flight model refused", source_}, kRepeatAfter_s, Severity::kWarning,
                      "datagram from {} dropped: {}", datagram.from, flightgear::to_string(packet.error()));
         return;
     }

@@ -160,13 +160,13 @@ void LiveWire::tell(Bus& bus) {
 
 void LiveWire::tell_losses(const Bus& bus, const transport::CanCounters& now) {
     if (now.dropped != bus.counters.dropped) {
-        log_.limited("bus dropped", kRepeatAfter_s, Severity::kWarning,
+        log_.limited({"bus dropped", bus.source}, kRepeatAfter_s, Severity::kWarning,
                      "source {}: the system dropped {} frames of {} so far: they came faster than they were "
                      "read (net.core.rmem_max sets how many may wait)",
                      bus.name, now.dropped, bus.receiver.interface());
     }
     if (now.ring_full != bus.counters.ring_full) {
-        log_.limited("bus ring full", kRepeatAfter_s, Severity::kWarning,
+        log_.limited({"bus ring full", bus.source}, kRepeatAfter_s, Severity::kWarning,
                      "source {}: {} frames of {} dropped so far: they came faster than frames take them",
                      bus.name, now.ring_full, bus.receiver.interface());
     }
