@@ -164,10 +164,12 @@ constexpr std::array kWorldMeanings{
     Meaning{"weather.layer", "bottom_band_ft", "in place of `bottom_band_m`", {}, "from 0"},
     Meaning{"weather.layer", "top_band_m", "the same of the top alone", "`band_m`"},
     Meaning{"weather.layer", "top_band_ft", "in place of `top_band_m`", {}, "from 0"},
-    Meaning{"weather.layer", "coverage_oktas",
-            "of the sky, seen straight from below; fog below all of it lies in "
-            "[patches](models.md#fog-haze-and-their-like); of what falls it is a part of the rate",
-            "all"},
+    Meaning{
+        "weather.layer", "coverage_oktas",
+        "of the sky, seen straight from below; fog below all of it lies in "
+        "[patches](models.md#fog-haze-and-their-like), deeper than 400..600 m evenly with the mean of them; "
+        "of what falls it is a part of the rate",
+        "all"},
     Meaning{"weather.layer", "coverage_pct", "in place of `coverage_oktas`"},
     Meaning{"weather.layer", "visibility_m",
             "inside the layer, by the contrast of `[air]`; the air's own is in it",
